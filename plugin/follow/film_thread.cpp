@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "plugin/follow/felt_element.h"
-#include "plugin/follow/followed_film.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::follow {
@@ -46,6 +45,11 @@ void FilmThread::aim(FilmGoal goal) {
   goal_ = std::move(goal);
 }
 
+FilmWish FilmThread::take_wish() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(wish_, {});
+}
+
 bool FilmThread::end(std::chrono::milliseconds limit) {
   std::unique_lock<std::mutex> lock(mutex_);
   ends_ = true;
@@ -73,7 +77,9 @@ void FilmThread::run() {
       tell("without force until the next film: " + plan->name);
       film.reset();
     }
+    const FilmWish wish = film ? film->take_wish() : FilmWish();
     lock.lock();
+    wish_.add(wish);
   }
   lock.unlock();
   film.reset();

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "plugin/follow/film_plan.h"
+#include "plugin/follow/followed_film.h"
 
 namespace spidar::follow {
 
@@ -38,6 +39,8 @@ class FilmThread {
 
   /// To be called every few tens of milliseconds: the force rests when no goal has come for 0.3 s.
   void aim(FilmGoal goal);
+  /// What was asked for since the last call.
+  FilmWish take_wish();
   /// Closes what is open. False if that takes longer than `limit`; the thread then still runs, and
   /// the process has to end without its destructor.
   bool end(std::chrono::milliseconds limit);
@@ -49,6 +52,7 @@ class FilmThread {
   std::mutex mutex_;
   std::condition_variable changed_;
   FilmGoal goal_;
+  FilmWish wish_;
   bool ends_ = false, has_ended_ = false;
   std::thread thread_;
 };

@@ -71,6 +71,8 @@ class Follower {
   static constexpr int64_t kSettle_ns = 1'000'000'000;
   static constexpr int kMaxLooks = 8;       ///< films that are looked at together
   static constexpr size_t kMaxSaid = 1000;  ///< sentences that are remembered
+  static constexpr const char* kRefuses =
+      " does not let other programs control it: pause it, and seek, in its own window";
   /// So long, files that are being read and what is felt may take to end.
   static constexpr std::chrono::milliseconds kEnd{2000};
 
@@ -83,6 +85,7 @@ class Follower {
     self.judge_position(now_ns);
     self.choose(now_ns);
     self.aim(now_ns);
+    self.carry_out(self.thread_->take_wish());
     return G_SOURCE_CONTINUE;
   }
 
@@ -114,7 +117,8 @@ class Follower {
                      [this](int64_t now_ns, int64_t position_ns) {
                        filter_.tell_jump(now_ns, position_ns);
                        take_position(now_ns, position_ns);
-                     }});
+                     },
+                     [this](Player& told) { tell_once(short_name(told.bus_name()) + kRefuses); }});
   }
 
   /// Not in a callback of a player, which ends here.
@@ -351,6 +355,18 @@ class Follower {
       }
     }
     thread_->aim(std::move(goal));
+  }
+
+  /// The player that is followed is the one that is controlled.
+  void carry_out(const FilmWish& wish) {
+    if (!player_ || !player_->state()) return;
+    const bool plays = state_.status == PlayerStatus::kPlaying;
+    const bool toggles = wish.plays && *wish.plays != plays;
+    if ((toggles && !state_.can_pause) || (wish.position_ns && !state_.can_seek)) {
+      return tell_once(short_name(player_->bus_name()) + kRefuses);
+    }
+    if (wish.position_ns) player_->seek(*wish.position_ns, *wish.position_ns - position_ns_);
+    if (toggles) player_->toggle();
   }
 
   /// mpv tells the position of the picture that it shows next.

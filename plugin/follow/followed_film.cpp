@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "plugin/films/stream_content.h"
 #include "plugin/follow/felt_element.h"
@@ -31,21 +32,6 @@ void link_track(GstElement*, GstPad* pad, gpointer decode) {
   if (!gst_pad_is_linked(sink.get()) && content_of(pad) == StreamContent::kHapticTrack) {
     gst_pad_link(pad, sink.get());
   }
-}
-
-/// How sure it is that a player shows this stream: a cover comes last, and a stream that the film
-/// marks as its own first.
-int choice_of(GstPad* pad, bool is_picture) {
-  GstEvent* const start = gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0);
-  auto flags = GST_STREAM_FLAG_NONE;
-  if (start) {
-    gst_event_parse_stream_flags(start, &flags);
-    gst_event_unref(start);
-  }
-  const int marked = (flags & GST_STREAM_FLAG_SELECT) != 0     ? 1
-                     : (flags & GST_STREAM_FLAG_UNSELECT) != 0 ? -1
-                                                               : 0;
-  return (is_picture ? 0 : 10) + marked;
 }
 
 void give_base_time(const GValue* element, gpointer base) {
@@ -124,19 +110,32 @@ void FollowedFilm::build_film() {
   const Ref<GstElement> sink(gst_bin_get_by_name(bin, "sink"));
   felt_ = felt.get();
   sink_ = sink.get();
+  const Ref<GstPad> pictures(gst_element_get_static_pad(felt_, "sink"));
+  gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, take_seek, this, nullptr);
   g_object_set(source.get(), "uri", plan_.uri.c_str(), nullptr);
-  g_signal_connect(source.get(), "autoplug-continue", G_CALLBACK(look), this);
+  videos_.watch(source.get());
   g_signal_connect(source.get(), "no-more-pads", G_CALLBACK(choose_stream), this);
   // Of a track, spidarmotion says it.
   begins_ = plan_.track.empty() ? plan_.name + " is analysed" : "";
 }
 
-gboolean FollowedFilm::look(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {
+/// A seek of the debug window is for the player, which this film then follows.
+GstPadProbeReturn FollowedFilm::take_seek(GstPad*, GstPadProbeInfo* info, gpointer user) {
   auto& self = *static_cast<FollowedFilm*>(user);
-  g_autofree gchar* id = is_picture(caps) ? gst_pad_get_stream_id(pad) : nullptr;
+  GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
+  if (GST_EVENT_TYPE(event) != GST_EVENT_SEEK || gst_event_get_seqnum(event) == self.own_seek_) {
+    return GST_PAD_PROBE_OK;
+  }
+  gint64 to_ns = 0;
+  gst_event_parse_seek(event, nullptr, nullptr, nullptr, nullptr, &to_ns, nullptr, nullptr);
   const std::lock_guard<std::mutex> lock(self.mutex_);
-  if (id) self.pictures_.insert(id);
-  return TRUE;
+  self.wish_.add({std::nullopt, to_ns});
+  return GST_PAD_PROBE_DROP;
+}
+
+FilmWish FollowedFilm::take_wish() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(wish_, {});
 }
 
 /// All streams are known.
@@ -145,18 +144,7 @@ void FollowedFilm::choose_stream(GstElement* decoder, gpointer user) {
   const Ref<GstElement> convert(gst_bin_get_by_name(GST_BIN(self.pipeline_.get()), "convert"));
   const Ref<GstPad> into(gst_element_get_static_pad(convert.get(), "sink"));
   if (gst_pad_is_linked(into.get())) return;
-  GstPad* chosen = nullptr;
-  int best = 0;
-  for (GList* i = decoder->srcpads; i; i = i->next) {
-    auto* const pad = static_cast<GstPad*>(i->data);
-    if (content_of(pad) != StreamContent::kVideo) continue;
-    g_autofree gchar* id = gst_pad_get_stream_id(pad);
-    const std::lock_guard<std::mutex> lock(self.mutex_);
-    const int choice = choice_of(pad, id && self.pictures_.count(id) > 0);
-    if (chosen && choice <= best) continue;
-    chosen = pad;
-    best = choice;
-  }
+  GstPad* const chosen = self.videos_.choose(decoder);
   if (chosen && gst_pad_link(chosen, into.get()) == GST_PAD_LINK_OK) return;
   GST_ELEMENT_ERROR(decoder, STREAM, WRONG_TYPE, ("there are no pictures in it"), (nullptr));
 }
@@ -169,6 +157,12 @@ bool FollowedFilm::check() {
     if (!failed_ && !text.empty() && said_.insert(text).second) tell(text);
     is_simulated_ = says_simulated(message).value_or(is_simulated_);
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
+    if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_REQUEST_STATE) {
+      GstState wanted;
+      gst_message_parse_request_state(message, &wanted);
+      const std::lock_guard<std::mutex> lock(mutex_);
+      wish_.add({wanted == GST_STATE_PLAYING, std::nullopt});
+    }
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE) read_segment();
     gst_message_unref(message);
   }
@@ -241,10 +235,11 @@ void FollowedFilm::seek(int64_t position_ns, double rate) {
   paused_at_ns_ = position_ns;
   rate_ = rate;
   seek_began_ns_ = monotonic_now_ns();
-  if (gst_element_seek(pipeline_.get(), rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
-                       std::max<int64_t>(position_ns, 0), GST_SEEK_TYPE_NONE, 0)) {
-    return;
-  }
+  GstEvent* const event =
+      gst_event_new_seek(rate, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
+                         std::max<int64_t>(position_ns, 0), GST_SEEK_TYPE_NONE, 0);
+  own_seek_ = gst_event_get_seqnum(event);
+  if (gst_element_send_event(pipeline_.get(), event)) return;
   tell("this film cannot be entered at another place");
   failed_ = true;
 }

@@ -3,6 +3,7 @@
 /// A film that is felt and not shown, at the position at which another program plays it.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -14,9 +15,21 @@
 #include <glib.h>
 #include <gst/gst.h>
 
+#include "plugin/films/video_choice.h"
 #include "plugin/follow/film_plan.h"
 
 namespace spidar::follow {
+
+/// What was asked for in the debug window, of which the player is to be told.
+struct FilmWish {
+  std::optional<bool> plays;
+  std::optional<int64_t> position_ns;
+
+  void add(const FilmWish& later) {
+    if (later.plays) plays = later.plays;
+    if (later.position_ns) position_ns = later.position_ns;
+  }
+};
 
 /// Plays the haptic track of the film, or the film once more. One thread, which files, networks and
 /// devices may hold up. Times are of CLOCK_MONOTONIC.
@@ -38,12 +51,14 @@ class FollowedFilm {
   void follow(int64_t now_ns, int64_t position_ns, double rate);
   /// The player rests, at this position if it is known.
   void rest(std::optional<int64_t> position_ns);
+  /// What was asked for since the last call.
+  FilmWish take_wish();
 
  private:
   void build(bool has_window);
   void build_track();
   void build_film();
-  static gboolean look(GstElement*, GstPad* pad, GstCaps* caps, gpointer self);
+  static GstPadProbeReturn take_seek(GstPad*, GstPadProbeInfo* info, gpointer self);
   static void choose_stream(GstElement* decoder, gpointer self);
   void pause();
   void seek(int64_t position_ns, double rate);
@@ -56,8 +71,10 @@ class FollowedFilm {
 
   const FilmPlan plan_;
   const std::vector<std::string> properties_;
-  std::mutex mutex_;                ///< guards what the streaming threads find
-  std::set<std::string> pictures_;  ///< streams of pictures in still formats, as covers are
+  VideoChoice videos_{VideoChoice::Rule::kMarked};
+  std::mutex mutex_;
+  FilmWish wish_;  ///< of the thread of the window
+  std::atomic<guint32> own_seek_{GST_SEQNUM_INVALID};
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
   GstElement* sink_ = nullptr;  ///< the sink that waits for the clock

@@ -69,6 +69,18 @@ PlayerState state_of(GVariant* properties) {
       std::strlen(text) <= kMaxUri) {
     state.uri = text;
   }
+  if (metadata &&
+      (g_variant_lookup(metadata.get(), "mpris:trackid", "&o", &text) ||
+       g_variant_lookup(metadata.get(), "mpris:trackid", "&s", &text)) &&
+      std::strlen(text) <= kMaxUri) {
+    state.track = text;
+  }
+  const auto may = [&](const char* what) {
+    gboolean can = TRUE;
+    return !g_variant_lookup(properties, what, "b", &can) || can;
+  };
+  state.can_pause = may("CanControl") && may("CanPause");
+  state.can_seek = may("CanControl") && may("CanSeek");
   return state;
 }
 
@@ -165,6 +177,31 @@ gboolean Player::poll(gpointer user) {
 void Player::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
   g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kProperties, method, parameters, nullptr,
                          G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, take, this);
+}
+
+void Player::order(const char* method, GVariant* parameters) {
+  g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kPlayer, method, parameters, nullptr,
+                         G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, take_obedience, this);
+}
+
+void Player::toggle() {
+  order("PlayPause", nullptr);
+}
+
+void Player::seek(int64_t position_ns, int64_t distance_ns) {
+  const std::string& track = state_->track;
+  if (g_variant_is_object_path(track.c_str())) {
+    order("SetPosition", g_variant_new("(ox)", track.c_str(), position_ns / 1000));
+  } else {
+    order("Seek", g_variant_new("(x)", distance_ns / 1000));
+  }
+}
+
+void Player::take_obedience(GObject* bus, GAsyncResult* result, gpointer user) {
+  const Answer answer = finish(bus, result);
+  if (answer.is_cancelled) return;
+  auto& self = *static_cast<Player*>(user);
+  if (answer.is_refused) self.told_.refusal(self);
 }
 
 void Player::ask_position() {

@@ -18,7 +18,9 @@ namespace spidar::follow {
 struct PlayerState {
   PlayerStatus status = PlayerStatus::kStopped;
   double rate = 1;
-  std::string uri;  ///< of what it plays; empty if it does not state it
+  std::string uri;    ///< of what it plays; empty if it does not state it
+  std::string track;  ///< the object path by which it knows that; empty if it does not state it
+  bool can_pause = true, can_seek = true;
 };
 
 /// Deadline for an answer, which takes a millisecond, or some tens of them on a busy machine. A
@@ -41,6 +43,7 @@ class Player {
     std::function<void(Player&)> state;  ///< a state has come
     /// Called for a player that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
+    std::function<void(Player&)> refusal;  ///< of toggle() or seek()
   };
   Player(GDBusConnection* bus, const std::string& bus_name, Told told);
   ~Player();
@@ -56,6 +59,10 @@ class Player {
   void watch(bool wanted);
   /// False when the player has answered that it has no position.
   bool has_position() const { return has_position_; }
+  /// Asks it to pause, or to go on.
+  void toggle();
+  /// Asks it to go to a place that is so far from where it is.
+  void seek(int64_t position_ns, int64_t distance_ns);
   /// How long a question has been waiting for its answer.
   int64_t silent_ns() const;
 
@@ -71,6 +78,8 @@ class Player {
                           const gchar* name, GVariant* parameters, gpointer self);
   static void take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
                          GVariant* parameters, gpointer self);
+  static void take_obedience(GObject* bus, GAsyncResult* result, gpointer self);
+  void order(const char* method, GVariant* parameters);
   void ask(const char* method, GVariant* parameters, GAsyncReadyCallback take);
   void ask_position();
   void ask_state();

@@ -35,7 +35,7 @@ void FilmWatch::begin(GstElement* pipeline, bool has_appended) {
   gst_bus_set_sync_handler(bus, handle, this, nullptr);
   gst_object_unref(bus);
   GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "decode");
-  g_signal_connect(decoder, "autoplug-continue", G_CALLBACK(look), this);
+  videos_.watch(decoder);
   g_signal_connect(decoder, "no-more-pads", G_CALLBACK(choose), this);
   gst_object_unref(decoder);
   convert_ = gst_bin_get_by_name(GST_BIN(pipeline), "convert");
@@ -90,37 +90,12 @@ GstPadProbeReturn FilmWatch::decoded(GstPad*, GstPadProbeInfo* info, gpointer us
   return GST_PAD_PROBE_OK;
 }
 
-gboolean FilmWatch::look(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {
-  auto& self = *static_cast<FilmWatch*>(user);
-  gchar* const id = is_picture(caps) ? gst_pad_get_stream_id(pad) : nullptr;
-  if (id) {
-    const std::lock_guard<std::mutex> lock(self.lock_);
-    self.pictures_.insert(id);
-  }
-  g_free(id);
-  return TRUE;
-}
-
-/// All streams are known. playbin and playbin3 play the first video, even if another one is marked
-/// as default. A cover is no video, unless there is no other.
+/// All streams are known.
 void FilmWatch::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const Ref<GstPad> into(gst_element_get_static_pad(self.convert_, "sink"));
   if (gst_pad_is_linked(into.get())) return;
-  GstPad* chosen = nullptr;
-  bool is_cover = false;
-  for (GList* i = decoder->srcpads; i && (!chosen || is_cover); i = i->next) {
-    auto* const pad = static_cast<GstPad*>(i->data);
-    const Ref<GstCaps> caps(caps_of(pad));
-    if (content_of(caps.get()) != StreamContent::kVideo) continue;
-    gchar* const id = gst_pad_get_stream_id(pad);
-    const std::lock_guard<std::mutex> lock(self.lock_);
-    const bool is_file = id && self.pictures_.count(id) > 0;
-    g_free(id);
-    if (chosen && is_file) continue;
-    chosen = pad;
-    is_cover = is_file;
-  }
+  GstPad* const chosen = self.videos_.choose(decoder);
   if (chosen) gst_pad_add_probe(chosen, kFlow, decoded, user, nullptr);
   if (chosen && gst_pad_link(chosen, into.get()) == GST_PAD_LINK_OK) return;
   {

@@ -8,11 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
-#include <set>
 #include <string>
 
 #include <gst/gst.h>
 
+#include "plugin/films/video_choice.h"
 #include "plugin/output/no_force.h"
 #include "plugin/tools/record_options.h"
 
@@ -75,19 +75,18 @@ class FilmWatch {
  private:
   static GstBusSyncReply handle(GstBus* bus, GstMessage* message, gpointer self);
   static GstPadProbeReturn decoded(GstPad* pad, GstPadProbeInfo* info, gpointer self);
-  static gboolean look(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
   static void choose(GstElement* decoder, gpointer self);
 
+  VideoChoice videos_{VideoChoice::Rule::kFirst};
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
   bool failed_ = false;  ///< with an error; warnings after it follow from it
   std::string warning_;  ///< the first one
   std::string remark_;   ///< the first warning of spidarmotion
   bool has_appended_ = false;
-  bool unmeasured_ = false;         ///< frames in a row; the remark says why
-  std::set<std::string> pictures_;  ///< streams of pictures that are files, by their ids
-  std::string missing_;             ///< the decoder of the video that is not installed
-  bool has_video_ = true;           ///< unknown until chosen
+  bool unmeasured_ = false;  ///< frames in a row; the remark says why
+  std::string missing_;      ///< the decoder of the video that is not installed
+  bool has_video_ = true;    ///< unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
   std::array<int, kNoForceReasons> frames_by_reason_{};  ///< that were measured

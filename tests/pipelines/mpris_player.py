@@ -21,6 +21,8 @@ def interface(has_position=True):
     return Gio.DBusNodeInfo.new_for_xml(f"""<node><interface name="{PLAYER}">
       <property name="PlaybackStatus" type="s" access="read"/><property name="Rate" type="d" access="read"/>
       <property name="Metadata" type="a{{sv}}" access="read"/>{position}
+      <method name="PlayPause"/><method name="Seek"><arg type="x" direction="in"/></method>
+      <method name="SetPosition"><arg type="o" direction="in"/><arg type="x" direction="in"/></method>
       <signal name="Seeked"><arg name="Position" type="x"/></signal></interface></node>""").interfaces[0]
 
 
@@ -64,11 +66,14 @@ class MockPlayer:
         self.context.push_thread_default()
         flags = Gio.DBusConnectionFlags.AUTHENTICATION_CLIENT | Gio.DBusConnectionFlags.MESSAGE_BUS_CONNECTION
         self.connection = Gio.DBusConnection.new_for_address_sync(address, flags)
-        self.connection.register_object(PATH, self.interface, None, self.get, None)
+        self.connection.register_object(PATH, self.interface, self.called, self.get, None)
         self.connection.call_sync("org.freedesktop.DBus", "/org/freedesktop/DBus", "org.freedesktop.DBus", "RequestName",
                                   GLib.Variant("(su)", ("org.mpris.MediaPlayer2." + name, 4)), None, 0, -1)
         ready.set()
         self.loop.run()
+
+    def called(self, _connection, _sender, _path, _interface, method, _parameters, invocation):
+        invocation.return_dbus_error("org.freedesktop.DBus.Error.NotSupported", method)
 
     def get(self, _connection, _sender, _path, _interface, name):
         rate = self.rate if self.told_rate is None else self.told_rate

@@ -15,7 +15,10 @@ import threading
 import time
 import unittest
 
+from gi.repository import GLib
+
 import bus_case
+import screen
 import track_case
 from mpris_player import Bus, MockPlayer, interface
 
@@ -472,6 +475,73 @@ class Seen(FollowCase):
         self.play(properties=["debug-window=false"], **self.screen)
         time.sleep(.5)
         self.assertFalse(self.path("opened").exists())
+
+
+class Obedient(MockPlayer):
+    """Does what it is asked to."""
+
+    def __init__(self, bus, name):
+        self.track, self.can = "/film/1", True
+        self.asked = []
+        super().__init__(bus, name)
+
+    def get(self, _connection, _sender, _path, _interface, name):
+        value = super().get(_connection, _sender, _path, _interface, name)
+        if name != "Metadata" or not self.track:
+            return value
+        return GLib.Variant("a{sv}", {"xesam:url": GLib.Variant("s", self.uri),
+                                      "mpris:trackid": GLib.Variant("o", self.track)})
+
+    def called(self, _connection, _sender, _path, _interface, method, parameters, invocation):
+        self.asked.append((method, *parameters.unpack()))
+        if not self.can:
+            return invocation.return_dbus_error("org.mpris.Error", "no")
+        invocation.return_value(None)
+        if method == "PlayPause":
+            self.change("Paused" if self.status == "Playing" else "Playing")
+        elif method == "SetPosition":
+            self.change(position_s=1e-6 * parameters.unpack()[1])
+        elif method == "Seek":
+            self.change(position_s=self.position_s() + 1e-6 * parameters.unpack()[0])
+
+
+@unittest.skipUnless(os.path.exists(os.path.join(os.path.dirname(FEEL), "spidar-window")), "spidar-window is not built")
+class Controlled(screen.ScreenCase, FollowCase):
+    def press_p(self):
+        screen.xdotool("windowfocus", "--sync", self.window, "key", "p")
+        time.sleep(.5)  # until the window shows what has come of it, usually
+
+    def click_on_timeline(self):
+        """In the middle of the window, on the film (model/layout.cpp, timeline_panel.cpp)."""
+        y = self.size[1] * (1 - .23) - 34 - 4 - 12.5
+        for step in (("mousemove", "--window", self.window, self.size[0] // 2, round(y)), ("mousedown", 1), ("mouseup", 1)):
+            screen.xdotool(*step)
+            time.sleep(.3)  # some pictures of the window
+
+    def test_pause_and_a_click_on_the_timeline_go_to_the_player(self):
+        player = self.plays("mock", kind=Obedient)
+        self.follow(properties=["debug-window=true"], DISPLAY=os.environ["DISPLAY"])
+        self.wait_until(screen.windows)
+        self.window = screen.windows()[-1]
+        shape = dict(line.split("=") for line in screen.xdotool("getwindowgeometry", "--shell", self.window).split())
+        self.size = int(shape["WIDTH"]), int(shape["HEIGHT"])
+        self.expect_found(player)
+        for status in ("Paused", "Playing"):
+            while player.status != status:
+                self.press_p()
+        self.assertEqual(set(player.asked), {("PlayPause",)})
+        for player.track, method in (("/film/1", "SetPosition"), ("", "Seek")):
+            player.change()
+            before_s = player.position_s()
+            while player.asked[-1][0] != method:  # a window on a busy machine may not see a click
+                self.click_on_timeline()
+            self.assertGreater(player.position_s() - before_s, 20)  # the film begins at the left
+            self.expect_found(player)
+            player.change(position_s=2)
+            self.expect_found(player)
+        player.can = False
+        self.press_p()
+        self.wait_until(lambda: "mock does not let other programs control it" in self.said())
 
 
 if __name__ == "__main__":

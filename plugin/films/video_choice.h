@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Which stream of a film is its picture.
+#pragma once
+
+#include <mutex>
+#include <set>
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar {
+
+/// Chooses among the streams of a decodebin or uridecodebin: a cover only where there is nothing
+/// else. Outlives the pipeline.
+class VideoChoice {
+ public:
+  enum class Rule {
+    kFirst,   ///< as playbin and playbin3, even if the film marks another one as its own
+    kMarked,  ///< as VLC and mpv: one that the film marks as its own comes before the first
+  };
+
+  explicit VideoChoice(Rule rule) : rule_(rule) {}
+  VideoChoice(const VideoChoice&) = delete;
+  VideoChoice& operator=(const VideoChoice&) = delete;
+
+  /// Before `decoder` starts. Decoded covers look like any picture, so their format is seen before.
+  void watch(GstElement* decoder);
+  /// Once all streams of `decoder` are known; null when none has pictures. Owned by the decoder.
+  GstPad* choose(GstElement* decoder);
+
+ private:
+  static gboolean look(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
+  int rank(GstPad* pad) const;
+
+  const Rule rule_;
+  std::mutex mutex_;
+  std::set<std::string> covers_;  ///< streams of pictures in still formats, by their ids
+};
+
+}  // namespace spidar
