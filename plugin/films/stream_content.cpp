@@ -83,6 +83,10 @@ StreamContent content_of(const GstCaps* caps) {
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
   const std::string name = gst_structure_get_name(structure);
   if (name.rfind("video/", 0) == 0 || name.rfind("image/", 0) == 0) return StreamContent::kVideo;
+  for (const char* begin : {"text/", "subtitle/", "subpicture/", "application/x-subtitle",
+                            "application/x-ssa", "application/x-ass", "application/x-usf"}) {
+    if (name.rfind(begin, 0) == 0) return StreamContent::kSubtitles;
+  }
   if (name.rfind("audio/", 0) != 0) return StreamContent::kOther;
   return has_form_of_track(caps) ? StreamContent::kHapticTrack : StreamContent::kSound;
 }

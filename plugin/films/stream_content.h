@@ -44,6 +44,7 @@ enum class StreamContent {
   kVideo,
   kSound,        ///< for ears
   kHapticTrack,  ///< has_form_of_track(), or is_marked_track()
+  kSubtitles,    ///< text or pictures
   kOther,
 };
 

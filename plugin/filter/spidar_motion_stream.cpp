@@ -205,6 +205,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       if (!same_playback(trans->segment, *segment)) state.begin_epoch();
       state.schedule.begin_segment();
       state.live.begin_segment();
+      state.display.begin_segment();
       break;
     }
     case GST_EVENT_GAP: {

@@ -100,6 +100,7 @@ struct DrawnFrame : FrameReport {
   std::vector<OwnedPoint> points;
   std::vector<ImagePoint> lost;  ///< last positions of the lost points
   std::vector<uint32_t> felt;    ///< ids of the objects that are felt, see felt_objects()
+  bool has_subtitles = false;    ///< which lie along the lower edge
 };
 
 }  // namespace spidar

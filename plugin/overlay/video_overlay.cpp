@@ -18,7 +18,7 @@ namespace {
 constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130}, kFilm{90, 200, 250};
 /// Height of a number, of the picture's.
 constexpr double kNumberFraction = 0.035;
-/// The strip with the curve at the lower edge, as fractions of the height of the picture: all of
+/// The strip with the curve, as fractions of the height of the picture: all of
 /// it, and from 0 N to the upper end of the axis. The curve ends so far from the right edge.
 constexpr double kStripFraction = 0.17, kBelowFraction = 0.02, kCurveFraction = 0.12;
 constexpr double kCurveEnd = 0.985;
@@ -251,18 +251,20 @@ void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& f
   sheet.box(low_px, high_px, 2 * thin_px, kProxy);
 }
 
-/// Along the lower edge of the picture as it is shown.
-void draw_curve(const ForceCurve& curve, const Orientation& turn, Sheet& sheet) {
+/// Along the lower edge of the picture as it is shown, or the upper one where subtitles are.
+void draw_curve(const ForceCurve& curve, const DrawnFrame& report, Sheet& sheet) {
+  const Orientation& turn = report.turn;
   const Eigen::Vector2d size_px = sheet.size_px();
   const double height_px = turn.is_sideways() ? size_px.x() : size_px.y();
   const double thin_px = height_px / kReferenceHeight_px;
   const auto at_px = [&](double x, double y) -> Eigen::Vector2d {
     return turn.stored_position(Eigen::Vector2d(x, y)).cwiseProduct(size_px).array() - 0.5;
   };
+  const double lower_edge = report.has_subtitles ? kStripFraction : 1;
   const auto level_px = [&](double x, double fraction) {
-    return at_px(x, 1 - kBelowFraction - kCurveFraction * fraction);
+    return at_px(x, lower_edge - kBelowFraction - kCurveFraction * fraction);
   };
-  sheet.shade(at_px(0, 1 - kStripFraction), at_px(1, 1), kStripOpacity);
+  sheet.shade(at_px(0, lower_edge - kStripFraction), at_px(1, lower_edge), kStripOpacity);
   for (const double fraction : {0.0, 1.0}) {
     sheet.line(level_px(0, fraction), level_px(1, fraction), thin_px, kGrid);
   }
@@ -291,7 +293,7 @@ void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVi
   style.turn = report.turn;
   style.height_px = visible.height;
   style.centre_px = sheet.at_px(force_origin_px(report));
-  if (curve) draw_curve(*curve, report.turn, sheet);
+  if (curve) draw_curve(*curve, report, sheet);
   if (has_points) {
     const auto at_px = [&](const ImagePoint& at) { return sheet.at_px({at.x_px, at.y_px}); };
     for (const Arrow& arrow : point_arrows(report.points, style, at_px)) {

@@ -62,8 +62,8 @@ class ForceCurve {
 /// arrow with a black border, which begins on the object (see force_origin_px()). While the picture
 /// is touched, also draws the finger as a ring, the touched point as a disc that grows with the
 /// force, and the contact force from that point. With `has_points`, also draws one arrow per point
-/// and a cross at each lost point; with a `curve`, that along the lower edge. `frame` must be
-/// mapped for writing.
+/// and a cross at each lost point; with a `curve`, that along the lower edge, or the upper
+/// one where the report has subtitles. `frame` must be mapped for writing.
 void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve = nullptr);
 

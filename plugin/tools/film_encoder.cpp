@@ -15,16 +15,13 @@
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/tools/encoder_choice.h"
 #include "plugin/tools/film_watch.h"
+#include "plugin/tools/kept_streams.h"
 #include "plugin/tools/track_samples.h"
 
 namespace spidar::tools {
 namespace {
-
-struct Encoder {
-  const char* element;
-  const char* line;  ///< of elements, for gst_parse_launch()
-};
 
 /// Of constant quality, with which pictures of any size look alike: H.264 of a quantizer between 20
 /// and 26 hardly differs from its source. The fastest settings that still do.
@@ -34,28 +31,6 @@ constexpr Encoder kVideo[] = {
 };
 constexpr const char* kNoVideo =
     "GStreamer has no encoder of H.264: install gstreamer1.0-plugins-ugly (x264enc)";
-constexpr Encoder kSound[] = {
-    {"avenc_aac", "audioconvert ! audioresample ! avenc_aac"},
-    {"voaacenc", "audioconvert ! audioresample ! voaacenc"},
-};
-constexpr const char* kNoSound =
-    "its sound is left out: GStreamer has no encoder of AAC; install gstreamer1.0-libav "
-    "(avenc_aac)";
-
-/// Sound that containers take as it is in the film.
-constexpr const char* kCopied =
-    "audio/mpeg,mpegversion=(int)4,stream-format=(string)raw,framed=(boolean)true; "
-    "audio/mpeg,mpegversion=(int)1,layer=(int)3,parsed=(boolean)true";
-
-/// The first one that is installed; null when none is.
-template <size_t kCount>
-const char* first_installed(const Encoder (&encoders)[kCount]) {
-  for (const Encoder& encoder : encoders) {
-    const Ref<GstElementFactory> factory(gst_element_factory_find(encoder.element));
-    if (factory) return encoder.line;
-  }
-  return nullptr;
-}
 
 }  // namespace
 
@@ -114,59 +89,6 @@ void QuietEnd::speak() {
   if (errors_ < 0) return;
   dup2(errors_, STDERR_FILENO);
   close(std::exchange(errors_, -1));
-}
-
-void KeptSound::begin(GstElement* pipeline) {
-  pipeline_ = pipeline;
-  const Ref<GstElement> decoder(gst_bin_get_by_name(GST_BIN(pipeline), "decode"));
-  GstCaps* caps = nullptr;
-  g_object_get(decoder.get(), "caps", &caps, nullptr);
-  caps = gst_caps_make_writable(caps);
-  gst_caps_append(caps, gst_caps_from_string(kCopied));
-  g_object_set(decoder.get(), "caps", caps, nullptr);
-  gst_caps_unref(caps);
-  g_signal_connect(decoder.get(), "unknown-type", G_CALLBACK(hear_unknown), this);
-  g_signal_connect(decoder.get(), "no-more-pads", G_CALLBACK(choose), this);
-}
-
-void KeptSound::hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
-  auto& self = *static_cast<KeptSound*>(user);
-  if (content_of(caps) != StreamContent::kSound) return;
-  self.missing_ = "a sound of it is left out: GStreamer has no decoder of " +
-                  std::string(gst_structure_get_name(gst_caps_get_structure(caps, 0)));
-}
-
-/// All streams are known, and none of them flows yet.
-void KeptSound::choose(GstElement* decoder, gpointer user) {
-  auto& self = *static_cast<KeptSound*>(user);
-  for (GList* i = decoder->srcpads; i; i = i->next) {
-    auto* const pad = static_cast<GstPad*>(i->data);
-    if (content_of(pad) == StreamContent::kSound) self.keep(pad);
-  }
-}
-
-void KeptSound::keep(GstPad* sound) {
-  const Ref<GstCaps> caps(caps_of(sound));
-  const bool is_raw =
-      gst_structure_has_name(gst_caps_get_structure(caps.get(), 0), "audio/x-raw") != FALSE;
-  const char* const encoder = is_raw ? first_installed(kSound) : "identity";
-  if (!encoder) {
-    missing_ = kNoSound;
-    return;
-  }
-  // Holds what is heard while the encoder of the pictures looks ahead.
-  const std::string line =
-      std::string("queue max-size-time=0 max-size-buffers=0 ! ") + encoder + " ! identity";
-  GstElement* const branch = gst_parse_bin_from_description(line.c_str(), TRUE, nullptr);
-  if (!branch) return;
-  gst_bin_add(GST_BIN(pipeline_), branch);
-  const Ref<GstElement> mux(gst_bin_get_by_name(GST_BIN(pipeline_), "mux"));
-  const Ref<GstPad> into(gst_element_request_pad_simple(mux.get(), "audio_%u"));
-  const Ref<GstPad> from(gst_element_get_static_pad(branch, "src"));
-  const Ref<GstPad> first(gst_element_get_static_pad(branch, "sink"));
-  gst_pad_link(from.get(), into.get());
-  gst_element_sync_state_with_parent(branch);
-  gst_pad_link(sound, first.get());
 }
 
 namespace {
@@ -249,7 +171,7 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part,
                                  const std::function<void(int percent)>& tell) {
   FilmProgress progress(tell);
   FilmWatch watch;
-  KeptSound sound;
+  KeptStreams others;
   QuietEnd quiet;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
   const FilePipeline file(
@@ -258,13 +180,13 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part,
           film_encoder(part),
       film, nullptr, kSlowShare);
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
-  sound.begin(file.pipeline());
+  others.begin(file.pipeline());
   quiet.begin(file.pipeline());
   progress.watch(file.find("flip"));
   const Ref<GstPad> pictures(gst_element_get_static_pad(file.find("flip"), "src"));
   gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
   watch.play(file);
-  return sound.missing();
+  return others.missing();
 }
 
 }  // namespace spidar::tools

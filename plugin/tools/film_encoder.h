@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Writes films as H.264, with the sound of another film, and as browsers play them.
+/// Writes films as H.264, and as browsers play them.
 #pragma once
 
 #include <functional>
@@ -39,29 +39,6 @@ class QuietEnd {
   void speak();
 
   int errors_ = -1;  ///< the standard error while it is discarded, else −1
-};
-
-/// Keeps every sound of a film that is decoded. AAC and MP3 are copied, all else becomes AAC.
-/// Outlives the pipeline.
-class KeptSound {
- public:
-  KeptSound() = default;
-  KeptSound(const KeptSound&) = delete;
-  KeptSound& operator=(const KeptSound&) = delete;
-
-  /// `pipeline` has a decodebin "decode" and a muxer "mux", and has not started.
-  void begin(GstElement* pipeline);
-
-  /// After the end: why a sound of the film is missing, as a sentence; empty if none is.
-  const std::string& missing() const { return missing_; }
-
- private:
-  static void choose(GstElement* decoder, gpointer self);
-  static void hear_unknown(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
-  void keep(GstPad* sound);
-
-  GstElement* pipeline_ = nullptr;
-  std::string missing_;
 };
 
 /// Why some browser does not play the film, as the end of a sentence: "its picture is

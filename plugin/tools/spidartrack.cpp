@@ -230,8 +230,8 @@ Prints what TO cannot hold.)");
     CLI::App* const app =
         add("show", "make a film with its force drawn into it", &CommandLine::show);
     app->footer(
-        R"(Analyses FILM, and writes a film of its pictures and sound into which are drawn the outlines
-of objects, the force as an arrow with its newtons, and the curve of the force over the last
+        R"(Analyses FILM, and writes a film of its pictures, sound and subtitles into which are drawn
+the outlines of objects, the force as an arrow with its newtons, and the curve of the force over the last
 five seconds.
 
 Properties of spidarmotion that change the force, and preset=NAME, come last, after two dashes:
@@ -240,12 +240,15 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     app->add_option("TO", to_, "the film to write; its name ends in .mp4 or .mkv")
         ->required()
         ->type_name("");
+    app->add_flag(
+        "--subtitles", draws_subtitles_,
+        "draw the first subtitles into the pictures, in place of keeping all beside them");
     add_force(app, "TO", force_);
     app->add_option("PROPERTY", misplaced_)->group("");
   }
   int show() {
     refuse_misplaced("show FILM TO");
-    return show_film(film_, to_, force_,
+    return show_film(film_, to_, force_, draws_subtitles_,
                      with_rules(parse_record_properties(properties_, 1), film_));
   }
 
@@ -298,7 +301,7 @@ FILM is then analysed with them:
   std::string track_folder_;
   // Of info, check, plot and show.
   std::string track_, png_, film_, to_;
-  bool json_ = false, force_ = false;
+  bool json_ = false, force_ = false, draws_subtitles_ = false;
   double max_force_N_ = kDefaultForce_N, max_torque_Nm_ = kDefaultTorque_Nm;  ///< of spidarsink
   ConvertOptions convert_;
   ExportOptions export_;

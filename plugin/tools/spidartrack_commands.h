@@ -45,7 +45,7 @@ int check_track(const std::string& track, double max_force_N, double max_torque_
 int convert_track(const ConvertOptions& options);
 /// `force`: see PartFile::Replaces::any.
 int plot_track(const std::string& track, const std::string& png, bool force);
-int show_film(const std::string& film, const std::string& to, bool force,
+int show_film(const std::string& film, const std::string& to, bool force, bool draws_subtitles,
               const RecordProperties& properties);
 int export_film(const ExportOptions& options);
 

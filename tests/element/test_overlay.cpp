@@ -185,18 +185,24 @@ TEST(Overlay, TheCurveEndsAtTheForceOfNowWhicheverWayThePictureIsTurned) {
     report.turn = Orientation(quarters);
     Canvas canvas("RGB", kSide, kSide);
     canvas.draw(report, 1, false, &curve);
-    const auto shown = [&](double x, double y) {
+    const auto shown = [&](const Canvas& of, double x, double y) {
       const Eigen::Vector2d position = report.turn.stored_position(Eigen::Vector2d(x, y));
-      return canvas.at(static_cast<int>(kSide * position.x()),
-                       static_cast<int>(kSide * position.y()));
+      return of.at(static_cast<int>(kSide * position.x()), static_cast<int>(kSide * position.y()));
     };
     // 0 N is 2 % of the height above the lower edge, and 2 N 12 % more; the end is at 98.5 %.
-    EXPECT_EQ(shown(0.985, 0.92), kOrange) << "1 N";
-    EXPECT_EQ(shown(0.7, 0.92), kOrange);
-    EXPECT_EQ(shown(0.25, 0.98), kOrange) << "0 N";
-    EXPECT_NEAR(shown(0.25, 0.92)[0], 77 / 2, 2) << "between, half of the grey";
-    EXPECT_EQ(shown(0.25, 0.8), (Pixel{77, 77, 77})) << "above the strip";
+    EXPECT_EQ(shown(canvas, 0.985, 0.92), kOrange) << "1 N";
+    EXPECT_EQ(shown(canvas, 0.7, 0.92), kOrange);
+    EXPECT_EQ(shown(canvas, 0.25, 0.98), kOrange) << "0 N";
+    EXPECT_NEAR(shown(canvas, 0.25, 0.92)[0], 77 / 2, 2) << "between, half of the grey";
+    EXPECT_EQ(shown(canvas, 0.25, 0.8), (Pixel{77, 77, 77})) << "above the strip";
     EXPECT_TRUE(canvas.guards_hold());
+    // Away from subtitles: all of it 83 % of the height higher.
+    report.has_subtitles = true;
+    Canvas subtitled("RGB", kSide, kSide);
+    subtitled.draw(report, 1, false, &curve);
+    EXPECT_EQ(shown(subtitled, 0.7, 0.09), kOrange) << "1 N";
+    EXPECT_EQ(shown(subtitled, 0.25, 0.15), kOrange) << "0 N";
+    EXPECT_EQ(shown(subtitled, 0.25, 0.92), (Pixel{77, 77, 77}));
   }
 }
 

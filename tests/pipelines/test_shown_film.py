@@ -5,6 +5,7 @@ import array
 import json
 import os
 import pathlib
+import re
 import subprocess
 import unittest
 
@@ -15,6 +16,16 @@ SOUND_HZ = 44100
 
 
 ENCODERS = ("x264enc", "openh264enc")  # of which one is needed
+
+
+def orange(rows):
+    """So many pixels are, as outline and curve."""
+    return sum(row[i] > 180 and row[i + 2] < 120 for row in rows for i in range(0, 3 * WIDTH, 3))
+
+
+# The curve has 3 px in 480 lines: two are whole. It is as long as the film, of five seconds over the whole width.
+CURVE_PX = .8 * 2 * WIDTH * SECONDS / 5
+LOWER, UPPER = slice(HEIGHT * 85 // 100, None), slice(0, HEIGHT * 15 // 100)
 
 
 @unittest.skipIf(all(subprocess.run(["gst-inspect-1.0", "--exists", element], check=False).returncode
@@ -67,12 +78,7 @@ class ShownFilm(track_case.TrackCase):
         self.assertAlmostEqual(float(video["duration"]), SECONDS, delta=.5 / RATE_HZ)
         before, after = self.pictures("film.avi"), self.pictures("shown.mp4")
         self.assertEqual(len(after), len(before))
-
-        def orange(rows):
-            return sum(row[i] > 180 and row[i + 2] < 120 for row in rows for i in range(0, 3 * WIDTH, 3))
-
-        # The ball is white, and outline and curve are orange. The curve has 3 px in 480 lines: two are whole.
-        self.assertGreater(orange(after[-1][HEIGHT * 85 // 100:]), .8 * 2 * WIDTH * SECONDS / 5)
+        self.assertGreater(orange(after[-1][LOWER]), CURVE_PX)
         outlines = [orange(rows[:HEIGHT * 4 // 5]) for rows in after[10::10]]
         self.assertGreater(max(outlines), 100)
         self.assertEqual([orange(rows) for rows in before[10::10]], [0] * len(outlines))
@@ -118,6 +124,28 @@ class ShownFilm(track_case.TrackCase):
             self.assertNotIn("OpenH264", said)
             kinds = self.run_in_folder(["ffprobe", "-v", "error", "-show_entries", "stream=codec_name", "-of", "csv=p=0", name])
             self.assertEqual(sorted(kinds.split()), ["aac", "aac", "h264"])
+
+    def test_subtitles_are_kept_or_drawn_and_the_curve_keeps_clear_of_them(self):
+        self.make_sounding("film.avi")
+        self.path("film.srt").write_text("1\n00:00:00,200 --> 00:00:00,900\n<i>Here</i> & there\n\n"
+                                         "2\n00:00:01,200 --> 00:00:01,900\nüber <b>alles</b>\n", encoding="utf-8")
+        for film, codec in (("film.mkv", "srt"), ("film.mp4", "mov_text"), ("styled.mkv", "ass")):
+            self.run_in_folder(f"ffmpeg -nostdin -v error -i film.avi -i film.srt -map 0:v -map 1 -c:v copy -c:s {codec} {film}")
+            for name in ("shown.mp4", "shown.mkv"):
+                with self.subTest(film, to=name):
+                    self.assertNotIn("left out", self.spidartrack("show", film, name, "--force"))
+                    text = re.sub("<font[^>]*>|</font>", "", self.read("-i", name, "-map", "0:s", "-f", "srt").decode())
+                    self.assertIn("00:00:00,200 --> 00:00:00,900\nHere & there\n", text)
+                    # The muxer of MP4 lets the last one end earlier.
+                    self.assertRegex(text, "00:00:01,200 --> 00:00:01,...\nüber alles\n")
+            self.assertGreater(orange(self.pictures("shown.mp4")[-1][UPPER]), CURVE_PX)
+        self.spidartrack("show", "film.mkv", "drawn.mp4", "--subtitles")
+        self.assertNotIn("subtitle", self.streams("drawn.mp4"))
+        drawn, kept = (self.pictures(name)[round(1.5 * RATE_HZ)] for name in ("drawn.mp4", "shown.mp4"))
+        self.assertGreater(orange(drawn[UPPER]), CURVE_PX / 2)
+        white = [sum(row[i] > 200 for row in rows[LOWER] for i in range(0, 3 * WIDTH, 3)) for rows in (drawn, kept)]
+        self.assertGreater(white[0], white[1] + 200)  # of ten letters
+        self.assertIn("it has no subtitles to draw", self.spidartrack("show", "film.avi", "plain.mp4", "--subtitles"))
 
     def test_films_of_every_kind(self):
         self.make_film("silent.avi")

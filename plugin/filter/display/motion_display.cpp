@@ -11,9 +11,28 @@
 #include "plugin/filter/display/element_source.h"
 #include "plugin/filter/reports/motion_meta.h"
 #include "plugin/frame/object_metas.h"
+#include "plugin/gobject/downstream.h"
 #include "plugin/overlay/video_overlay.h"
 
 namespace spidar::filter {
+
+namespace {
+
+/// Whether subtitles come to it besides pictures: it draws them, or writes both into a file.
+bool takes_subtitles(GstElement* element) {
+  GST_OBJECT_LOCK(element);
+  bool takes = false;
+  for (const GList* i = element->sinkpads; i; i = i->next) {
+    auto* const pad = static_cast<GstPad*>(i->data);
+    for (const char* begin : {"subtitle", "text", "subpicture"}) {
+      takes = takes || (gst_pad_is_linked(pad) && g_str_has_prefix(GST_OBJECT_NAME(pad), begin));
+    }
+  }
+  GST_OBJECT_UNLOCK(element);
+  return takes;
+}
+
+}  // namespace
 
 /// `report` with what is drawn of it.
 DrawnFrame MotionDisplay::drawn(const FrameReport& report, const AnalyzerSettings& settings) {
@@ -24,6 +43,7 @@ DrawnFrame MotionDisplay::drawn(const FrameReport& report, const AnalyzerSetting
   if (report.analyzed) drawn.click = settings.kept.click;
   const std::optional<LoopSnapshot> loop = output_.snapshot();
   if (report.touch.on && loop) drawn.touch_mark = touch_mark(report.touch, loop->last);
+  drawn.has_subtitles = has_subtitles_;
   owners_.find(drawn);
   return drawn;
 }
@@ -67,6 +87,11 @@ void MotionDisplay::begin_stream(const std::string& film) {
   curve_ = {};
   film_ = {};
   film_.path = std::make_shared<const std::string>(film);
+}
+
+void MotionDisplay::begin_segment() {
+  has_subtitles_ = is_upstream(GST_BASE_TRANSFORM_SINK_PAD(element_), takes_subtitles) ||
+                   !find_path_downstream(element_, takes_subtitles).empty();
 }
 
 void MotionDisplay::follow_film(const FrameReport& report) {

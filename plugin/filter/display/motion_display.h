@@ -45,6 +45,8 @@ class MotionDisplay {
 
   /// Another stream begins, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
+  /// What is linked may have changed.
+  void begin_segment();
 
   // --- any thread
 
@@ -73,7 +75,8 @@ class MotionDisplay {
   // Streaming thread.
   PointOwners owners_;
   ForceCurve curve_;  ///< for the overlay
-  FilmScene film_;    ///< for the window
+  bool has_subtitles_ = false;
+  FilmScene film_;  ///< for the window
   uint32_t epoch_ = 0;
 
   mutable std::mutex mutex_;  ///< never held while a window opens or closes

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What a film that is written anew keeps besides its pictures.
+#pragma once
+
+#include <string>
+
+#include <gst/gst.h>
+
+namespace spidar::tools {
+
+/// Keeps every sound and all subtitles of a film that is decoded. AAC and MP3 are copied, other
+/// sound becomes AAC; subtitles that are text stay text, without what is bold or coloured. Outlives
+/// the pipeline.
+class KeptStreams {
+ public:
+  KeptStreams() = default;
+  KeptStreams(const KeptStreams&) = delete;
+  KeptStreams& operator=(const KeptStreams&) = delete;
+
+  /// `pipeline` has a decodebin "decode" and a muxer "mux", and has not started. If it has a
+  /// subtitleoverlay "subtitles", that draws the first subtitles, and no others are kept.
+  void begin(GstElement* pipeline);
+
+  /// After the end: what of the film is missing, and why, as sentences; empty if nothing is.
+  const std::string& missing() const { return missing_; }
+
+ private:
+  static void choose(GstElement* decoder, gpointer self);
+  static void hear_unknown(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
+  void keep_sound(GstPad* sound);
+  void keep_subtitles(GstPad* subtitles);
+  void lead_to_muxer(GstPad* stream, const char* elements, const char* into);
+  void miss(const std::string& what);
+
+  GstElement* pipeline_ = nullptr;
+  std::string missing_;
+};
+
+}  // namespace spidar::tools
