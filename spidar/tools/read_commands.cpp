@@ -28,6 +28,7 @@ Json found_devices() {
                        {"serial", board.serial},
                        {"usb_id", board.usb_id},
                        {"profile", board.profile},
+                       {"has_strings", board.has_strings},
                        {"accessible", board.accessible},
                        {"note", board.note}});
   }
@@ -65,9 +66,13 @@ int list(const bool& as_json) {
   }
   for (const Json& board : devices) {
     const std::string serial = text_of(board, "serial"), note = text_of(board, "note");
+    // Boards with strings have none but that which was confirmed.
+    const bool is_chosen = board.value("has_strings", false) && !serial.empty();
+    const std::string profile = is_chosen ? text_of(board, "profile") : "";
     std::cout << "  " << std::left << std::setw(12) << text_of(board, "device") << "  "
               << text_of(board, "board") << "; " << text_of(board, "evidence")
               << (serial.empty() ? "" : "; serial number " + serial)
+              << (profile.empty() ? "" : "; confirmed profile " + profile)
               << (note.empty() ? "" : "; " + note) << '\n';
   }
   std::cout << "\nserial lines (motor boards may be connected to them)\n";
