@@ -76,7 +76,7 @@ ScreenCast::ScreenCast(const std::string& token) {
   GVariantBuilder options;
   g_variant_builder_init(&options, G_VARIANT_TYPE_VARDICT);
   g_variant_builder_add(&options, "{sv}", "session_handle_token", g_variant_new_string("spidar"));
-  const Ref<GVariant> created = ask("CreateSession", "(@a{sv})", nullptr, options);
+  const Ref<GVariant> created = ask("CreateSession", {}, options);
   const gchar* text = nullptr;
   if (!g_variant_lookup(created.get(), "session_handle", "&s", &text)) {
     refuse("the desktop's portal gives no session");
@@ -93,11 +93,11 @@ ScreenCast::ScreenCast(const std::string& token) {
   if (!token.empty()) {
     g_variant_builder_add(&options, "{sv}", "restore_token", g_variant_new_string(token.c_str()));
   }
-  ask("SelectSources", "(@o@a{sv})", g_variant_new_object_path(session_.c_str()), options);
+  ask("SelectSources", {g_variant_new_object_path(session_.c_str())}, options);
 
   g_variant_builder_init(&options, G_VARIANT_TYPE_VARDICT);
-  const Ref<GVariant> started =
-      ask("Start", "(@os@a{sv})", g_variant_new_object_path(session_.c_str()), options);
+  const Ref<GVariant> started = ask(
+      "Start", {g_variant_new_object_path(session_.c_str()), g_variant_new_string("")}, options);
   if (g_variant_lookup(started.get(), "restore_token", "&s", &text)) token_ = text;
   const Ref<GVariant> streams(
       g_variant_lookup_value(started.get(), "streams", G_VARIANT_TYPE("a(ua{sv})")));
@@ -148,7 +148,7 @@ Ref<GVariant> ScreenCast::call(const char* interface, const char* method, GVaria
   return reply;
 }
 
-Ref<GVariant> ScreenCast::ask(const char* method, const char* types, GVariant* arguments,
+Ref<GVariant> ScreenCast::ask(const char* method, std::vector<GVariant*> arguments,
                               GVariantBuilder& options) {
   // The answer may come before the call returns, so it is waited for by the path that it will have.
   std::string sender = g_dbus_connection_get_unique_name(bus_.get()) + 1;
@@ -163,11 +163,8 @@ Ref<GVariant> ScreenCast::ask(const char* method, const char* types, GVariant* a
       bus_.get(), "org.freedesktop.DBus", "org.freedesktop.DBus", "NameOwnerChanged", nullptr,
       kPortal, G_DBUS_SIGNAL_FLAGS_NONE, take_owner, &answer, nullptr);
   g_variant_builder_add(&options, "{sv}", "handle_token", g_variant_new_string(handle.c_str()));
-  GVariant* const all = g_variant_builder_end(&options);
-  GVariant* const given = !arguments ? g_variant_new(types, all)
-                          : std::string(types) == "(@o@a{sv})"
-                              ? g_variant_new(types, arguments, all)
-                              : g_variant_new(types, arguments, "", all);
+  arguments.push_back(g_variant_builder_end(&options));
+  GVariant* const given = g_variant_new_tuple(arguments.data(), arguments.size());
   std::string failed;
   try {
     call(kScreenCast, method, given);

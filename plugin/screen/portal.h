@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <gio/gio.h>
 #include <string>
+#include <vector>
 
 #include "plugin/gobject/ref.h"
 
@@ -35,9 +36,9 @@ class ScreenCast {
 
  private:
   void check_portal();
-  /// Calls a method that answers by a Request, and returns its results. `options` is floating.
-  Ref<GVariant> ask(const char* method, const char* types, GVariant* arguments,
-                    GVariantBuilder& options);
+  /// Calls a method that answers by a Request, and returns its results. `arguments` are floating,
+  /// and `options` follow them.
+  Ref<GVariant> ask(const char* method, std::vector<GVariant*> arguments, GVariantBuilder& options);
   Ref<GVariant> call(const char* interface, const char* method, GVariant* arguments,
                      GUnixFDList** descriptors = nullptr) const;
   void open_remote();
