@@ -143,7 +143,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   };
   if (is_small(picture)) {
     begin_run();
-    const VisiblePart& part = report.visible;
+    const PicturePart& part = report.visible;
     const bool is_cropped =
         part.width < frame.video.info.width || part.height < frame.video.info.height;
     report.fault = !is_small(luma) ? FrameReport::Fault::kSmallHalf
