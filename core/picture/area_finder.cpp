@@ -28,16 +28,16 @@ constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
 constexpr double kOfRepeated = 0.25;
 constexpr int kMaxSkipped = 2;
 
-constexpr int kCell_px = 8;
+constexpr int kAreaCell_px = 8;
 /// Lasting pixels of a cell that has them: one line of it.
-constexpr int kLineOfCell = kCell_px;
+constexpr int kLineOfCell = kAreaCell_px;
 
 /// A side is straight if so much of what begins near it begins within two lines of pixels, and that
 /// is so much of its length. The sides of a disc of 80 px have 0.2 and 0.3.
 constexpr double kBeginsTogether = 0.4;
 constexpr double kOfLength = 0.3;
 /// Two cells, of which the outer one may have a line only.
-constexpr int kNear_px = 2 * kCell_px;
+constexpr int kNear_px = 2 * kAreaCell_px;
 /// So much of what begins at a side must have changed in the newest picture, too: where an object
 /// has left, nothing does.
 constexpr double kStillChanges = 0.1;
@@ -83,8 +83,8 @@ void AreaFinder::begin(const ImageView& picture) {
   before_.assign(size, 0);
   changed_.assign(size, 0);
   lasting_.assign(size, 0);
-  columns_ = (width_ + kCell_px - 1) / kCell_px;
-  rows_ = (height_ + kCell_px - 1) / kCell_px;
+  columns_ = (width_ + kAreaCell_px - 1) / kAreaCell_px;
+  rows_ = (height_ + kAreaCell_px - 1) / kAreaCell_px;
   cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
   open_.reserve(cells_.size());
   begins_ = false;
@@ -104,10 +104,10 @@ bool AreaFinder::take(const ImageView& picture) {
   alignas(16) uint8_t sixteen[16];
   const int lasting_before = std::exchange(lasting_pixels_, 0);
   for (int row = 0; row < rows_; ++row) {
-    const int below = std::min((row + 1) * kCell_px, height_);
+    const int below = std::min((row + 1) * kAreaCell_px, height_);
     for (int x = 0; x < width_; x += 16) {
       v_uint8x16 lasting = zero;  // lines of the cells, for each column of pixels
-      for (int y = row * kCell_px; y < below; ++y) {
+      for (int y = row * kAreaCell_px; y < below; ++y) {
         const uint8_t* from = picture.at(x, y);
         if (x + 16 > width_) {
           std::memset(sixteen, 0, sizeof sixteen);
@@ -126,9 +126,9 @@ bool AreaFinder::take(const ImageView& picture) {
         lasting = lasting + ((has >= lasts) & one);
       }
       cv::v_store(sixteen, lasting);
-      for (int k = 0; k < 2 && x / kCell_px + k < columns_; ++k) {
-        const int count = sum_of_8(sixteen + k * kCell_px);
-        cells_[static_cast<size_t>(row * columns_ + x / kCell_px + k)] =
+      for (int k = 0; k < 2 && x / kAreaCell_px + k < columns_; ++k) {
+        const int count = sum_of_8(sixteen + k * kAreaCell_px);
+        cells_[static_cast<size_t>(row * columns_ + x / kAreaCell_px + k)] =
             static_cast<uint8_t>(count);
         lasting_pixels_ += count;
       }
@@ -168,9 +168,9 @@ bool AreaFinder::grow(size_t cell, Candidate& candidate) {
     }
   }
   const int columns = right - left + 1, rows = bottom - top + 1;
-  candidate.part = {left * kCell_px, top * kCell_px,
-                    std::min(columns * kCell_px, width_ - left * kCell_px),
-                    std::min(rows * kCell_px, height_ - top * kCell_px)};
+  candidate.part = {left * kAreaCell_px, top * kAreaCell_px,
+                    std::min(columns * kAreaCell_px, width_ - left * kAreaCell_px),
+                    std::min(rows * kAreaCell_px, height_ - top * kAreaCell_px)};
   return columns >= kSmallest * columns_ && rows >= kSmallest * rows_ &&
          candidate.cells >= kFilled * columns * rows;
 }
@@ -299,8 +299,8 @@ void AreaFinder::search(int64_t running_ns) {
 
 int AreaFinder::lasting_cells(const PicturePart& part) const {
   int count = 0;
-  for (int y = part.y + kCell_px / 2; y < part.y + part.height; y += kCell_px) {
-    for (int x = part.x + kCell_px / 2; x < part.x + part.width; x += kCell_px) {
+  for (int y = part.y + kAreaCell_px / 2; y < part.y + part.height; y += kAreaCell_px) {
+    for (int x = part.x + kAreaCell_px / 2; x < part.x + part.width; x += kAreaCell_px) {
       count += lasting_[static_cast<size_t>(y * stride_ + x)] >= kLasts;
     }
   }
