@@ -179,6 +179,7 @@ def main():
             check_python(it)
         check_plugin(it, bus)
         check_tools(it)
+        check_told(it)
     return 0
 
 
