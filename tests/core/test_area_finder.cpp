@@ -155,7 +155,9 @@ void expect_found(const Seen& seen, const Part& part, const std::string& what,
 void expect_whole(const Seen& seen, const std::string& what) {
   for (size_t n = 0; n < seen.area.size(); ++n) {
     ASSERT_FALSE(seen.area[n]) << what << " " << n << ": " << testing::PrintToString(*seen.area[n]);
-    if (n > 2 * AreaFinder::kStays) ASSERT_FALSE(seen.searches[n]) << what << " " << n;
+    if (n > 2 * AreaFinder::kStays) {
+      ASSERT_FALSE(seen.searches[n]) << what << " " << n;
+    }
   }
 }
 
@@ -261,10 +263,13 @@ void expect_followed(const Seen& seen, size_t begin, size_t end, const std::opti
   const size_t known = end + 1 + kRate;  // AreaFinder::kSearch_ns
   for (size_t n = known; n < seen.area.size(); ++n) {
     EXPECT_FALSE(seen.searches[n]) << what << " " << n;
-    if (part)
+    if (part) {
       EXPECT_TRUE(is_near(seen.area[n], *part))
           << what << " " << n << ": " << testing::PrintToString(seen.area[n]);
-    if (!part) EXPECT_FALSE(seen.area[n]) << what << " " << n;
+    }
+    if (!part) {
+      EXPECT_FALSE(seen.area[n]) << what << " " << n;
+    }
   }
 }
 
@@ -310,8 +315,12 @@ TEST(AreaFinder, StaysWithAFilmUntilItHasRestedForTwoSeconds) {
   for (size_t n = kRate; n < seen.area.size(); ++n) {
     const bool is_first = n < rests + 2 * kRate;
     const bool is_second = n > rests + 4 * kRate;
-    if (is_first) EXPECT_TRUE(is_near(seen.area[n], first)) << n;
-    if (is_second) EXPECT_TRUE(is_near(seen.area[n], second)) << n;
+    if (is_first) {
+      EXPECT_TRUE(is_near(seen.area[n], first)) << n;
+    }
+    if (is_second) {
+      EXPECT_TRUE(is_near(seen.area[n], second)) << n;
+    }
   }
 }
 
