@@ -47,8 +47,8 @@ class Watcher {
   /// The id of the object that is felt; 0: none.
   uint32_t update(const std::vector<MovingObject>& objects, const std::vector<PictureBox>& boxes) {
     const int64_t now_ns = int64_t{frames_++} * 40'000'000;
-    const Chosen chosen = choice_.choose(
-        {objects, nullptr, kWidth, kHeight, kFrame_s, frames_ == 1, now_ns, turn_, &boxes});
+    const Chosen chosen = choice_.choose({objects, nullptr, FilmPlace::whole(kWidth, kHeight),
+                                          kFrame_s, frames_ == 1, now_ns, turn_, &boxes});
     state_ = chosen.state;
     return chosen.object ? chosen.object->id : 0;
   }

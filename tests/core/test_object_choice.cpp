@@ -252,8 +252,8 @@ TEST(ObjectChoice, OfTheLargestAndOfThoseAtTheSides) {
     std::vector<int> frames(4, 0);
     for (int n = 0; n < 100; ++n) {
       const std::vector<MovingObject> objects = objects_at({large(), middle(), small()}, n);
-      const Chosen chosen =
-          choice.choose({objects, nullptr, kWidth, kHeight, kFrame_s, n == 0, n * kFrame_ns, turn});
+      const Chosen chosen = choice.choose({objects, nullptr, FilmPlace::whole(kWidth, kHeight),
+                                           kFrame_s, n == 0, n * kFrame_ns, turn});
       ++frames[chosen.object ? chosen.object->id : 0];
     }
     return frames;
@@ -279,8 +279,8 @@ TEST(ObjectChoice, TheLargestStaysUntilAnotherIsClearlyLarger) {
     std::vector<MovingObject> objects = objects_at({large(), middle()}, n);
     objects[0].area_px2 = n < 50 ? 1000 + 100 * (n % 2) : 1500;
     objects[1].area_px2 = 1050;
-    const Chosen chosen =
-        choice.choose({objects, nullptr, kWidth, kHeight, kFrame_s, n == 0, n * kFrame_ns, {}});
+    const Chosen chosen = choice.choose(
+        {objects, nullptr, FilmPlace::whole(kWidth, kHeight), kFrame_s, n == 0, n * kFrame_ns, {}});
     ASSERT_NE(chosen.object, nullptr);
     changes += chosen.object->id != last;
     last = chosen.object->id;

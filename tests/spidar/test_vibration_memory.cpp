@@ -156,7 +156,9 @@ TEST_F(VibrationMemories, AUserWithoutAHomeHasHalf) {
 TEST_F(VibrationMemories, AHomeThatMayNotBeWrittenIsNamedAsThat) {
   const uid_t user = geteuid();
   fs::permissions(folder.path, fs::perms::owner_write, fs::perm_options::remove);
-  if (user == 0) ASSERT_EQ(seteuid(65534), 0);
+  if (user == 0) {
+    ASSERT_EQ(seteuid(65534), 0);
+  }
   VibrationMemory memory(file);
   memory.add(0, at(kHour));
   ASSERT_EQ(seteuid(user), 0);
