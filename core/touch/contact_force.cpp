@@ -89,7 +89,6 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
 /// Energy that a moving surface puts into the spring may be returned to the hand.
 void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
                                  const Eigen::Vector3d& grip_m) noexcept {
-  lost_ = lost_ && proxy_.touching() && proxy_.shift_m() < 0;
   if (!proxy_.touching()) {
     budget_.update(way_m, velocity_m_s_, 0, 0);
     return;
@@ -99,7 +98,6 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
   const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
   double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
-  if (lost_) put_in_J = std::min(put_in_J, 0.0);
   // A receding surface takes energy out at the actual force, which the bound may keep below the
   // spring force.
   if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);

@@ -66,22 +66,11 @@ class ContactForce {
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
 
-  /// After tick(): see EnergyBudget.
-  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
-    budget_.deliver(given, turn_rad);
-  }
-
   /// Velocity of the grip after the low-pass.
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }
   const Proxy& proxy() const noexcept { return proxy_; }
-  /// Discards all state.
+  /// Discards all state, for example after the pose was lost.
   void reset() noexcept { *this = {}; }
-  /// The same after the pose was lost. A surface that the grip is below then has not moved to it,
-  /// and gives it no energy when it rises.
-  void lose() noexcept {
-    reset();
-    lost_ = true;
-  }
 
  private:
   void follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept;
@@ -93,7 +82,6 @@ class ContactForce {
   Proxy proxy_;
   EnergyBudget budget_;
   bool started_ = false;
-  bool lost_ = false;    ///< the surface has not been at its true height since the pose was lost
   double before_s_ = 0;  ///< dt_s of the last tick
   Eigen::Vector3d last_m_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d velocity_m_s_ = Eigen::Vector3d::Zero();

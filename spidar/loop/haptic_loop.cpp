@@ -88,7 +88,7 @@ void HapticLoop::energise() noexcept {
   untrusted_ns_ = 0;
   brake_.reset();
   safety_.reset();
-  exerted_ = above_rest_ = {};
+  exerted_ = {};
   idle_.reset();
 }
 
@@ -149,7 +149,6 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     ask_callback(record, passed_ns);
     command(record, step, passed_ns);
     exchange(record, step);
-    count_energy(record);
     vibration_.update(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
@@ -197,7 +196,7 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   if (mailbox == nullptr) return;
   if (!record.playing || !grip_->reading().knows_pose() ||
       closing_.load(std::memory_order_acquire)) {
-    touch_.rest(*mailbox, grip_->reading().knows_pose());
+    touch_.rest(*mailbox);
     return;
   }
   // max-force may be 0, but the contact needs a limit above that; the safety chain then lets
@@ -304,22 +303,11 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
     late_s_ +=
         fraction_passed(interval_s, kLateness_s) * (std::max(0.0, interval_s - kTick_s) - late_s_);
     unanswered_ns_ = 0;
-    above_rest_ = exerted_ - grip.at_rest;
-    above_rest_.torque_Nm -= power_ * record.commanded.torque_Nm;
     return follow(step.falls_s);
   }
   undo(record);
   ++counters_.exchange_errors;
   if (is_lost(fault) || missing_.is_lost()) lose();
-}
-
-/// Neither a surface nor a passive callback asks for a torque: what is not the film's, the strings
-/// give for want of better ones.
-void HapticLoop::count_energy(const TickRecord& record) noexcept {
-  const Eigen::Vector3d turn_rad = GripMotion::turn_rad(at_, grip_->reading().pose);
-  at_ = grip_->reading().pose;
-  if (record.contact.has_surface) touch_.deliver(above_rest_, turn_rad);
-  if (record.called_back) callback_.deliver(above_rest_, turn_rad);
 }
 
 /// Nobody needs to be protected from a stick that lets go of the hand. However late a tick is, the

@@ -61,7 +61,7 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
     stiffness_N_m_ = 0;
     return result;
   }
-  if (!(dt_s <= kLongestTick_s)) contact_.lose();
+  if (!(dt_s <= kLongestTick_s)) contact_.reset();
 
   const Surface* const next = leads_on_ ? frame(mailbox, 1) : nullptr;
   MovingRelief surface{&now->relief};
@@ -101,10 +101,9 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
   return result;
 }
 
-void Rendering::rest(Mailbox& mailbox, bool knows_pose) noexcept {
+void Rendering::rest(Mailbox& mailbox) noexcept {
   drop_cleared(mailbox);
-  if (knows_pose) return contact_.reset();
-  contact_.lose();
+  contact_.reset();
 }
 
 void Rendering::drop_cleared(Mailbox& mailbox) noexcept {
