@@ -75,8 +75,9 @@ struct FrameReport {
   NoForceReason device_no_force = NoForceReason::kNone;  ///< of device and playback, at this moment
   TouchScene touch;
 
-  /// The part of the frame that was analysed.
+  /// The part of the frame that is the film: all of the picture if nothing was analysed.
   PicturePart film_part() const {
+    if (!has_area()) return visible;
     const PicturePart& area = frame.place.area;
     return {visible.x + area.x, visible.y + area.y, area.width, area.height};
   }

@@ -85,9 +85,8 @@ MotionRow area_row() {
   return {[](const MotionProperties& defaults) {
             return g_param_spec_string(
                 "area", "Area",
-                "Which part of the picture the film is in, of which alone the motion is felt: "
-                "'whole', 'auto' (where pixels go on changing while those around do not), or "
-                "X,Y,WIDTH,HEIGHT in pixels of the frame from its top left corner",
+                "Which part of the picture is analysed: 'whole', 'auto' (where it changes and the "
+                "rest does not), or X,Y,WIDTH,HEIGHT in pixels from the top left",
                 text_of(defaults.analyzer.area).c_str(), kPlaying);
           },
           set_area,

@@ -3,7 +3,6 @@
 /// Properties of an element as a table: one row for each.
 #pragma once
 
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <initializer_list>
@@ -224,25 +223,13 @@ inline void warn_of_late(GstElement* element, const GParamSpec* spec) {
                       ("The element has read it already."));
 }
 
-/// GObject lets NaN through, whatever the range of a property is.
-inline bool is_number(const GValue* value) {
-  return !G_VALUE_HOLDS_DOUBLE(value) || !std::isnan(g_value_get_double(value));
-}
-
-inline void warn_of_nan(GstElement* element, const GParamSpec* spec) {
-  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
-                      ("%s is set to what is not a number, and stays as it was.", spec->name),
-                      ("NaN comes from a preset, a controller or the application."));
-}
-
 /// GObjectClass::set_property of an element whose `state` has `settings`, under its object lock,
 /// and the mutex `setting`, so that the effects of settings come in the order in which they were
-/// made. A setting that would have no effect any more, or is NaN, is not taken, with a warning.
+/// made. A setting that would have no effect any more is not taken, with a warning.
 template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
                   GParamSpec* spec) {
-  if (!is_number(value)) return warn_of_nan(GST_ELEMENT(element), spec);
   GValue before = G_VALUE_INIT;
   g_value_init(&before, G_PARAM_SPEC_VALUE_TYPE(spec));
   std::unique_lock<std::mutex> in_order(element->state->setting);

@@ -91,7 +91,8 @@ class ExistingFiles(track_case.TrackCase):
         self.assert_said("c.wav: cannot be written: it is a link to nowhere.wav, which is not there; remove the link",
                          "convert", "a.wav", "c.wav")
         # Of a track, too, that is recorded again.
-        self.path("sub/track.flac").write_bytes(PRECIOUS)
+        self.spidartrack("record", "film.avi")
+        self.path("film.avi.haptic.flac").rename(self.path("sub/track.flac"))
         self.path("film.avi.haptic.flac").symlink_to("sub/track.flac")
         self.spidartrack("record", "film.avi", "--force")
         self.assertTrue(self.path("film.avi.haptic.flac").is_symlink())
