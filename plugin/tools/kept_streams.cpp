@@ -50,6 +50,13 @@ std::string without_marks(const std::string& marked) {
 
 /// A probe that makes plain text of subtitles with Pango's marks.
 GstPadProbeReturn make_plain(GstPad*, GstPadProbeInfo* info, gpointer) {
+  if ((info->type & GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM) != 0) {
+    // Whether the muxer takes marks is asked before they are gone.
+    GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
+    if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) return GST_PAD_PROBE_OK;
+    gst_query_set_accept_caps_result(query, TRUE);
+    return GST_PAD_PROBE_HANDLED;
+  }
   if ((info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0) {
     GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
     if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
@@ -136,7 +143,8 @@ void KeptStreams::keep_subtitles(GstPad* subtitles) {
                 format_of(caps.get()) + "); --subtitles draws them into the film");
   }
   constexpr auto kAll =
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER);
+      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM |
+                                   GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER);
   const Ref<GstCaps> plain(gst_caps_from_string(kPlainText));
   if (!gst_caps_is_subset(caps.get(), plain.get())) {
     gst_pad_add_probe(subtitles, kAll, make_plain, nullptr, nullptr);
