@@ -32,6 +32,12 @@ std::string format_of(const GstCaps* caps) {
   return gst_structure_get_name(gst_caps_get_structure(caps, 0));
 }
 
+/// Whether it is text that may have Pango's marks.
+bool is_marked(GstCaps* caps) {
+  const Ref<GstCaps> plain(gst_caps_from_string(kPlainText));
+  return format_of(caps) == "text/x-raw" && !gst_caps_is_subset(caps, plain.get());
+}
+
 /// Without the marks of Pango, as `<i>` and `&amp;`. Not by a parser: of Matroska, GStreamer passes
 /// a text on as it is, with "<i>" and with a plain "&".
 std::string without_marks(const std::string& marked) {
@@ -46,6 +52,29 @@ std::string without_marks(const std::string& marked) {
     }
   }
   return plain;
+}
+
+/// Marked text in which each ampersand begins a name, or is written as one. Matroska's demuxer says
+/// of any text that it has Pango's marks, and Pango refuses others.
+std::string with_names(const std::string& marked) {
+  static const std::regex kAlone("&(?!(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);)");
+  return std::regex_replace(marked, kAlone, "&amp;");
+}
+
+/// Replaces the text in a buffer by what `change` makes of it.
+void replace_text(GstPadProbeInfo* info, std::string (*change)(const std::string&)) {
+  GstBuffer* const old = GST_PAD_PROBE_INFO_BUFFER(info);
+  GstMapInfo map;
+  if (!gst_buffer_map(old, &map, GST_MAP_READ)) return;
+  std::string text(reinterpret_cast<const char*>(map.data), map.size);
+  gst_buffer_unmap(old, &map);
+  text = change(text.c_str());  // some end with a zero
+  GstBuffer* const changed = gst_buffer_new_memdup(text.data(), text.size());
+  constexpr auto kRest =
+      static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_FLAGS | GST_BUFFER_COPY_TIMESTAMPS);
+  gst_buffer_copy_into(changed, old, kRest, 0, static_cast<gsize>(-1));
+  info->data = changed;
+  gst_buffer_unref(old);
 }
 
 /// A probe that makes plain text of subtitles with Pango's marks.
@@ -65,18 +94,13 @@ GstPadProbeReturn make_plain(GstPad*, GstPadProbeInfo* info, gpointer) {
     gst_event_unref(event);
     return GST_PAD_PROBE_OK;
   }
-  GstBuffer* const marked = GST_PAD_PROBE_INFO_BUFFER(info);
-  GstMapInfo map;
-  if (!gst_buffer_map(marked, &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
-  std::string text(reinterpret_cast<const char*>(map.data), map.size);
-  gst_buffer_unmap(marked, &map);
-  text = without_marks(text.c_str());  // some end with a zero
-  GstBuffer* const plain = gst_buffer_new_memdup(text.data(), text.size());
-  constexpr auto kRest =
-      static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_FLAGS | GST_BUFFER_COPY_TIMESTAMPS);
-  gst_buffer_copy_into(plain, marked, kRest, 0, static_cast<gsize>(-1));
-  info->data = plain;
-  gst_buffer_unref(marked);
+  replace_text(info, without_marks);
+  return GST_PAD_PROBE_OK;
+}
+
+/// A probe for subtitles that Pango draws.
+GstPadProbeReturn make_drawable(GstPad*, GstPadProbeInfo* info, gpointer) {
+  replace_text(info, with_names);
   return GST_PAD_PROBE_OK;
 }
 
@@ -119,6 +143,9 @@ void KeptStreams::choose(GstElement* decoder, gpointer user) {
     if (content == StreamContent::kSound) self.keep_sound(pad);
     if (content != StreamContent::kSubtitles || is_drawn) continue;
     if (overlay) {
+      if (is_marked(Ref<GstCaps>(caps_of(pad)).get())) {
+        gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, make_drawable, nullptr, nullptr);
+      }
       is_drawn =
           gst_element_link_pads(decoder, GST_OBJECT_NAME(pad), overlay.get(), "subtitle_sink");
     } else {
@@ -145,8 +172,7 @@ void KeptStreams::keep_subtitles(GstPad* subtitles) {
   constexpr auto kAll =
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM |
                                    GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER);
-  const Ref<GstCaps> plain(gst_caps_from_string(kPlainText));
-  if (!gst_caps_is_subset(caps.get(), plain.get())) {
+  if (is_marked(caps.get())) {
     gst_pad_add_probe(subtitles, kAll, make_plain, nullptr, nullptr);
   }
   lead_to_muxer(subtitles, "identity", "subtitle_%u");
