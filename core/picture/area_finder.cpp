@@ -15,11 +15,12 @@ namespace {
 /// A pixel of the reduced picture has changed if it differs by more than so many grey levels: more
 /// than rounding and what good encoders leave of a picture at rest.
 constexpr uint8_t kChanged_grey = 3;
-/// A change adds so much to what a pixel has, and each picture takes 1 from that. Two changes
-/// within some pictures are lasting; kMost / 1 pictures later they are forgotten.
+/// A change adds kRise to the level of a pixel, up to kMaxLevel, and each picture takes 1 from it.
+/// From kLasts on, which takes two changes within some pictures, a pixel changes lastingly. After
+/// at most kMaxLevel pictures without a change, its changes are forgotten.
 constexpr uint8_t kRise = 8;
 constexpr uint8_t kLasts = 2 * kRise - 2;
-constexpr uint8_t kMost = 24;
+constexpr uint8_t kMaxLevel = 24;
 /// What changes between the first two pictures may be lasting.
 constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
 
@@ -98,7 +99,7 @@ bool AreaFinder::take(const ImageView& picture) {
   using cv::v_uint8x16;
   const v_uint8x16 zero = cv::v_setzero_u8(), one = cv::v_setall_u8(1);
   const v_uint8x16 rise = cv::v_setall_u8(compared_ == 0 ? kFirstRise : kRise);
-  const v_uint8x16 most = cv::v_setall_u8(kMost), lasts = cv::v_setall_u8(kLasts);
+  const v_uint8x16 most = cv::v_setall_u8(kMaxLevel), lasts = cv::v_setall_u8(kLasts);
   const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey);
   DifferenceSum changes;
   alignas(16) uint8_t sixteen[16];

@@ -60,7 +60,8 @@ class HapticLoop {
   static constexpr double kEnergise_s = 0.2;
   /// Time in which tensions fall to zero before the device is closed.
   static constexpr double kRelease_s = 0.05;
-  static constexpr int kMaxErrors = MissingAnswers::kMost;
+  /// Number of failed exchanges in a row after which a device is lost.
+  static constexpr int kMaxErrors = MissingAnswers::kMax;
   /// Upper bound of the time for which a force rises in one tick, however late that is, so that a
   /// stall does not end in a step. What falls does so in the time that has passed.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;

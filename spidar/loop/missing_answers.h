@@ -7,16 +7,16 @@
 
 namespace spidar {
 
-/// A device is lost after kMost exchanges in a row without an answer, and also if more than half of
+/// A device is lost after kMax exchanges in a row without an answer, and also if more than half of
 /// them lastingly have none: each answer makes up for one that is missing.
 class MissingAnswers {
  public:
-  static constexpr int kMost = 20;
+  static constexpr int kMax = 20;
 
   void count(bool answered) noexcept {
     missing_ = answered ? std::max(missing_ - 1, 0) : missing_ + 1;
   }
-  bool is_lost() const noexcept { return missing_ >= kMost; }
+  bool is_lost() const noexcept { return missing_ >= kMax; }
   void reset() noexcept { missing_ = 0; }
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kRest_s = 0.0505;  // 50 ticks, and rounding
 /// Far from the centre; within 2 cm, the strings at rest pull by 1.13 N at most.
-constexpr double kMostAtRest_N = 3;
+constexpr double kMaxAtRest_N = 3;
 /// No frame is held longer.
 constexpr int64_t kOldest_ns = 100 * 1'000'000;
 /// Before the next frame is due; a tick for the last one of them.
@@ -123,7 +123,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   const Wrench& now = record.commanded;
   if (!now.is_finite()) fail(record, "not finite");
   // A damper takes back what the strings at rest give, whatever the limit.
-  const bool damps = record.brakes && limits.max_force_N < kMostAtRest_N;
+  const bool damps = record.brakes && limits.max_force_N < kMaxAtRest_N;
   if (!damps && now.force_N.norm() > limits.max_force_N * (1 + kRounding)) {
     fail(record, "force too large");
   }
