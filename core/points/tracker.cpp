@@ -42,7 +42,7 @@ constexpr double kMinResponse = (2 * kMinWeakestGradient / 255) * (2 * kMinWeake
 constexpr double kMinQualityLevel = 1e-6;
 
 constexpr int kWindow_px = 15;
-constexpr int kMaxLevel = 3;  // a level reaches about half a window: 7 px · 2³ in all
+constexpr int kMaxPyramidLevel = 3;  // a level reaches about half a window: 7 px · 2³ in all
 /// OpenCV's smallest eigenvalue is the mean squared gradient (grey levels per pixel) / 1024.
 constexpr double kMinEigenvalue = kMinWeakestGradient * kMinWeakestGradient / 1024;
 /// Largest forward–backward error, px. Correct matches return to within a few hundredths of a
@@ -64,7 +64,7 @@ struct PointSearch {
 /// Few points change their motion much: the two finest levels find them. This also keeps a periodic
 /// texture from jumping by a period, to which the coarse levels are prone. Only a clear match
 /// counts. For the other points all levels are searched.
-constexpr PointSearch kSearches[] = {{1, true, 0.12}, {kMaxLevel, false, 0.4}};
+constexpr PointSearch kSearches[] = {{1, true, 0.12}, {kMaxPyramidLevel, false, 0.4}};
 
 /// A point that is followed, in the reduced picture.
 struct Feature {
@@ -180,7 +180,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   constexpr bool kWithDerivatives = true;  // used twice: forwards from this picture, and back
   constexpr bool kReuseInput = false;      // the input lives shorter than the pyramid
   cv::buildOpticalFlowPyramid(const_mat(reduced.base().view()), now,
-                              cv::Size(kWindow_px, kWindow_px), kMaxLevel, kWithDerivatives,
+                              cv::Size(kWindow_px, kWindow_px), kMaxPyramidLevel, kWithDerivatives,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
   result.points.clear();
   if (result.picture == Likeness::kFirst) {
