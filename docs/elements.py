@@ -15,6 +15,7 @@ import re
 import sys
 import tempfile
 import tomllib
+from itertools import groupby
 from pathlib import Path
 
 try:
@@ -36,8 +37,8 @@ PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@prese
            "them where its own data are, and in `GST_PRESET_PATH`. In a launch line, a preset replaces what the line sets, "
            "wherever it stands; `max-force` stays as it is. `spidar-feel`, `spidartrack` and "
            "`examples/play.sh` take `preset=film`.\n")
-CHANGES = ("A property can be changed while playing unless it says *in READY*: then in the states NULL and READY only; or *in "
-           "NULL*: then only there. Later a warning says so, and it stays as it was. *Controllable* means that a `GstControlSource` can drive it.\n")
+CHANGES = ("A property can be changed while playing, unless it says *in READY* (only in the states NULL and READY) or *in NULL*: "
+           "then a later change is refused with a warning. *Controllable*: a `GstControlSource` can drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
          "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
@@ -172,12 +173,13 @@ def table(columns, rows):
 
 
 def field_list(fields, where, names, types=None):
-    lines = []
+    """Neighbours of one meaning on one line."""
+    rows = []
     for name in names:
         unit, meaning = fields.row(where, name)
         facts = ", ".join(filter(None, [types[name] if types else "", unit]))
-        lines.append(f"- `{name}`{f' ({facts})' if facts else ''}: {meaning}")
-    return lines
+        rows.append((f"`{name}`", f"{f' ({facts})' if facts else ''}: {meaning}"))
+    return [f"- {', '.join(name for name, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
 
 
 def stats_lists(fields, stats, parts):
@@ -228,13 +230,13 @@ def observed(fields):
     haptic = ["", "## Columns of `haptic-trace`", "",
               "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
               *field_list(fields, "haptic-trace", shorter(tick_header))]
-    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame. It comes when the "
-              "frame is analysed, which behind a queue is up to a second before the frame is shown. Use it at its "
-              "`running-time`, as [motion_messages.py](../../examples/motion_messages.py) and "
-              "[gtk_arrow.py](../../examples/gtk_arrow.py) do. A star stands for x, y and z:", "",
+    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame, when it is analysed: "
+              "before a queue up to a second before it is shown. Use it at its `running-time`, as "
+              "[motion_messages.py](../../examples/motion_messages.py) and [gtk_arrow.py](../../examples/gtk_arrow.py) do. "
+              "A star stands for x, y and z:", "",
               *field_list(fields, "message", messages, messages), "",
-              "When the device is opened, cannot be opened, is lost or comes back, an element message `spidar-device`. Warnings "
-              "and errors say the same to people; their codes are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
+              "When the device is opened, cannot be opened, is lost or comes back, an element message `spidar-device`. The codes "
+              "of the warning or error that goes with it are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
               "its profile, its firmware) or `OPEN_READ_WRITE` of `GST_RESOURCE_ERROR`, and `WRITE` when it is lost:", "",
               *field_list(fields, "device-message", device, device), "", "## Fields of `stats`",
               *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),

@@ -11,11 +11,10 @@ namespace spidar {
 /// `Settings` has the member profile.
 template <typename Settings>
 Property<Settings> profile_row() {
-  return Property<Settings>::text(
-      {"profile", "Profile",
-       "Geometry and motors: name of a shipped profile, or a .toml file. A real board gets no "
-       "force without one. Read from NULL to READY"},
-      kNull, KEPT_IN(profile));
+  return Property<Settings>::text({"profile", "Profile",
+                                   "Geometry and motors: name of a shipped profile, or a .toml "
+                                   "file. A real board gets no force without one"},
+                                  kNull, KEPT_IN(profile));
 }
 
 /// `Settings` has the member on_device_error.
@@ -25,10 +24,7 @@ Property<Settings> on_device_error_row() {
       {"on-device-error", "On device error",
        "What happens when the device cannot be opened, or fails while playing"},
       "GstSpidarOnDeviceError",
-      {{OnDeviceError::kWarn,
-        "Post a warning and go on without force. A device that fails while playing is reopened "
-        "when it "
-        "returns",
+      {{OnDeviceError::kWarn, "Post a warning and go on without force, until the device returns",
         "warn"},
        {OnDeviceError::kError, "Post an error, which stops the pipeline", "error"}},
       kPlaying, KEPT_IN(on_device_error));
@@ -39,8 +35,7 @@ template <typename Settings>
 Property<Settings> haptic_trace_row() {
   return Property<Settings>::text(
       {"haptic-trace", "Haptic trace",
-       "Write one CSV line for each millisecond with forces, string tensions and pose to this "
-       "file. Opened in the change from NULL to READY"},
+       "File that gets a line of CSV for each millisecond, with forces, tensions and pose"},
       kNull, KEPT_IN(haptic_trace));
 }
 

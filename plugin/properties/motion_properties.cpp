@@ -52,11 +52,10 @@ MotionRow with(MotionRow row, void (*then)(MotionProperties&)) {
 MotionRow pointer_row() {
   return {
       [](const MotionProperties&) {
-        return g_param_spec_string(
-            "pointer", "Pointer",
-            "Which position weights the objects of motion=objects: 'grip', 'mouse', or X,Y as "
-            "fractions of the picture from its top left corner",
-            kMiddle, kPlaying);
+        return g_param_spec_string("pointer", "Pointer",
+                                   "Position that weights the objects of motion=objects: 'grip', "
+                                   "'mouse', or X,Y as fractions of the picture from its top left",
+                                   kMiddle, kPlaying);
       },
       set_pointer,
       [](const MotionProperties& properties, GValue* value) {
@@ -85,8 +84,8 @@ MotionRow area_row() {
   return {[](const MotionProperties& defaults) {
             return g_param_spec_string(
                 "area", "Area",
-                "Which part of the picture is analysed: 'whole', 'auto' (where it changes and the "
-                "rest does not), or X,Y,WIDTH,HEIGHT in pixels from the top left",
+                "Part of the picture that is analysed: 'whole', 'auto' (where it changes and the "
+                "rest does not), or X,Y,WIDTH,HEIGHT in pixels",
                 text_of(defaults.analyzer.area).c_str(), kPlaying);
           },
           set_area,
@@ -116,70 +115,62 @@ std::vector<MotionRow> analysis_rows() {
             "linear"},
            {ControlLaw::kNonlinear, "Nonlinear: arctangent of the speed (eq. 14-15)", "nonlinear"},
            {ControlLaw::kAdaptive,
-            "Adaptive: nonlinear, with an alpha that follows the speeds of the scene (a tenth to "
-            "ten times the one that is set) and a dead zone for slow motions",
+            "Adaptive: nonlinear, with an alpha that follows the scene (a tenth to ten times the "
+            "one that is set) and a dead zone for slow motions",
             "adaptive"}},
           kControllable, KEPT_IN(analyzer.controller.law)),
       with(MotionRow::choice<MotionKind>(
-               {"motion", "Motion", "Which motion in the picture is rendered as force"},
-               "GstSpidarFeltMotion",
+               {"motion", "Motion", "Motion that becomes force"}, "GstSpidarFeltMotion",
                {{MotionKind::kMean,
                  "Mean velocity of OpenCV's Shi-Tomasi points, tracked by pyramidal Lucas-Kanade: "
                  "closest to the paper (eq. 1-10)",
                  "mean"},
                 {MotionKind::kObject,
-                 "The one object that stands out most, relative to the background; no force when "
-                 "only the camera moves",
+                 "The object that stands out most, relative to the background; no force when only "
+                 "the camera moves",
                  "object"},
                 {MotionKind::kObjects,
-                 "All objects at once: their mean relative to the background, weighted by area and "
-                 "by distance from the pointer",
+                 "All objects: their mean relative to the background, weighted by area and by "
+                 "distance from the pointer",
                  "objects"},
-                {MotionKind::kCamera, "The motion of the camera, as if the viewer moved with it",
-                 "camera"}},
+                {MotionKind::kCamera, "The camera, as if the viewer moved with it", "camera"}},
                kControllable, KEPT_IN(analyzer.motion)),
            follow_motion),
-      MotionRow::text(
-          {"feel", "Feel",
-           "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, or the rules "
-           "themselves, with semicolons between them"},
-          kPlaying, KEPT_IN(feel)),
+      MotionRow::text({"feel", "Feel",
+                       "Rules that say what is felt when: a .feel file, 'auto' for FILM.mp4.feel, "
+                       "or the rules, with semicolons between them"},
+                      kPlaying, KEPT_IN(feel)),
       area_row(),
       pointer_row(),
       MotionRow::number({"max-force", "Maximum force",
                          "Largest force on the grip, in newtons (Fmax of eq. 12 and 15)"},
                         0, 20, kControllable, KEPT_IN(analyzer.controller.max_force_N)),
-      with(MotionRow::number({"alpha", "Alpha",
-                              "How quickly force rises with speed, in s/px at 480 lines: half of "
-                              "max-force at 1/alpha "
-                              "px/s. Until set, 0.01 with motion=mean. Not with controller=linear"},
-                             1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
+      with(MotionRow::number(
+               {"alpha", "Alpha",
+                "How quickly force rises with speed, in s/px at 480 lines: half of max-force at "
+                "1/alpha px/s. Until set, 0.01 with motion=mean. Not for controller=linear"},
+               1e-6, 10, kControllable, KEPT_IN(analyzer.controller.alpha_s_px)),
            [](MotionProperties& properties) { properties.alpha_is_set = true; }),
-      MotionRow::number(
-          {"depth-gain", "Depth gain",
-           "Force towards the viewer when the object grows: factor of the speed that growth causes "
-           "at half a frame's height. 0: none"},
-          0, 100, kControllable, KEPT_IN(analyzer.axes.depth)),
-      MotionRow::number(
-          {"roll-gain", "Roll gain",
-           "Torque about the view axis when the object turns: factor of the speed that turning "
-           "causes at half a frame's height. 0: none"},
-          0, 100, kControllable, KEPT_IN(analyzer.axes.roll)),
-      MotionRow::number(
-          {"filter-min-cutoff", "Filter minimum cutoff",
-           "Cutoff of the One-Euro filter while the motion is steady, in Hz; delays by 1/(2 pi "
-           "cutoff) seconds. 0: no filter"},
-          0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
-      MotionRow::number(
-          {"filter-beta", "Filter beta",
-           "How much the filter's cutoff (Hz) rises with the motion's rate of change (px/s^2), in "
-           "s/px at 480 lines"},
-          0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
-      MotionRow::number(
-          {"washout", "Washout",
-           "Cutoff below which the force fades, in Hz: what lasts falls to 37 % in 1/(2 pi cutoff) "
-           "seconds, while changes pass. 0: nothing fades"},
-          0, 1, kControllable, KEPT_IN(analyzer.washout_Hz)),
+      MotionRow::number({"depth-gain", "Depth gain",
+                         "Force towards the viewer when the object grows: factor of the speed that "
+                         "growth causes at half a frame's height"},
+                        0, 100, kControllable, KEPT_IN(analyzer.axes.depth)),
+      MotionRow::number({"roll-gain", "Roll gain",
+                         "Torque about the view axis when the object turns: factor of the speed "
+                         "that turning causes at half a frame's height"},
+                        0, 100, kControllable, KEPT_IN(analyzer.axes.roll)),
+      MotionRow::number({"filter-min-cutoff", "Filter minimum cutoff",
+                         "Cutoff of the One-Euro filter in a steady motion, in Hz; delays by 1/(2 "
+                         "pi cutoff) seconds. 0: no filter"},
+                        0, 1000, kControllable, KEPT_IN(analyzer.filter.min_cutoff_Hz)),
+      MotionRow::number({"filter-beta", "Filter beta",
+                         "How much the filter's cutoff rises with the motion's rate of change, in "
+                         "s/px at 480 lines"},
+                        0, 10, kControllable, KEPT_IN(analyzer.filter.beta_s_px)),
+      MotionRow::number({"washout", "Washout",
+                         "Cutoff below which the force fades, in Hz: what lasts falls to 37 % in "
+                         "1/(2 pi cutoff) seconds, while changes pass"},
+                        0, 1, kControllable, KEPT_IN(analyzer.washout_Hz)),
   };
 }
 
@@ -187,10 +178,8 @@ std::vector<MotionRow> analysis_rows() {
 std::vector<MotionRow> display_rows() {
   return {
       MotionRow::choice<DisplayProperties::Overlay>(
-          {"overlay", "Overlay",
-           "What is drawn into the video. Frames that other elements hold are copied first"},
-          "GstSpidarOverlay",
-          {{DisplayProperties::Overlay::kNone, "Nothing: frames are passed on as they are", "none"},
+          {"overlay", "Overlay", "What is drawn into the video"}, "GstSpidarOverlay",
+          {{DisplayProperties::Overlay::kNone, "Nothing", "none"},
            {DisplayProperties::Overlay::kForce,
             "The outlines of objects and the force that is felt", "force"},
            {DisplayProperties::Overlay::kPoints, "Small arrows of the motion, too", "points"},
@@ -198,18 +187,15 @@ std::vector<MotionRow> display_rows() {
             "Outlines, the force, and its curve over the last five seconds", "curve"}},
           kPlaying, KEPT_IN(display.overlay)),
       MotionRow::number({"arrow-scale", "Arrow scale",
-                         "Length of a point's arrow, as a multiple of its displacement since the "
-                         "previous frame"},
+                         "Length of a point's arrow, as a multiple of its displacement"},
                         0.1, 100, kControllable, KEPT_IN(display.arrow_scale)),
-      MotionRow::on_off(
-          {"debug-window", "Debug window",
-           "Show picture, points, grip, tensions and settings in a window. Becomes false "
-           "when the window is closed or cannot be opened"},
-          kPlaying, KEPT_IN(display.debug_window)),
+      MotionRow::on_off({"debug-window", "Debug window",
+                         "Show what is measured and felt in a window. Becomes false when it is "
+                         "closed or cannot be opened"},
+                        kPlaying, KEPT_IN(display.debug_window)),
       MotionRow::on_off(
           {"attach-meta", "Attach meta",
-           "Attach motion, points, wrench and the boxes of objects to each frame as metas. The "
-           "picture is neither copied nor changed"},
+           "Attach motion, points, wrench and the boxes of objects to each frame as metas"},
           kPlaying, KEPT_IN(display.attach_meta)),
   };
 }
@@ -227,38 +213,31 @@ std::vector<MotionRow> touch_rows() {
            {TouchProperties::Kind::kLuma, "A relief of the frame's brightness: bright is near",
             "luma"},
            {TouchProperties::Kind::kDepth,
-            "A relief of the depth in the right half of the frame, of what the left half shows: "
-            "bright is near",
-            "depth"},
+            "A relief of the depth in the right half of the frame: bright is near", "depth"},
            {TouchProperties::Kind::kDepthBelow,
             "The same, with the depth in the lower half of the frame", "depth-below"}},
           kControllable, KEPT_IN(touch.kind)),
-      MotionRow::number(
-          {"touch-relief", "Touch relief",
-           "Height of the relief from black to white, or from far to near, in millimetres, about "
-           "the centre of the workspace"},
-          0, kMaxRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
-      MotionRow::number(
-          {"touch-stiffness", "Touch stiffness",
-           "Stiffness of the surface, in newtons per metre. A device with slow or unmeasured "
-           "drives gets less, with a warning"},
-          kMinStiffness_N_m, touch::ContactSettings::kMaxStiffness_N_m, kControllable,
-          KEPT_IN(touch.stiffness_N_m)),
+      MotionRow::number({"touch-relief", "Touch relief",
+                         "Height of the relief from far to near, in millimetres, about the centre "
+                         "of the workspace"},
+                        0, kMaxRelief_mm, kControllable, KEPT_IN(touch.relief_mm)),
+      MotionRow::number({"touch-stiffness", "Touch stiffness",
+                         "Stiffness of the surface, in N/m. A device with slow or unmeasured "
+                         "drives gets less, with a warning"},
+                        kMinStiffness_N_m, touch::ContactSettings::kMaxStiffness_N_m, kControllable,
+                        KEPT_IN(touch.stiffness_N_m)),
       MotionRow::number(
           {"touch-friction", "Touch friction",
-           "Coefficient of static friction of the surface; that of kinetic friction is "
-           "four fifths of it"},
+           "Coefficient of static friction; that of kinetic friction is four fifths of it"},
           0, 1, kControllable, KEPT_IN(touch.friction)),
       MotionRow::number(
           {"touch-texture", "Touch texture",
-           "Lateral force of the picture's fine detail, as a multiple of the slope that it "
-           "has in the relief; 0 turns it off"},
+           "Lateral force of the picture's fine detail, as a multiple of its slope in the relief"},
           0, kMaxTexture, kControllable, KEPT_IN(touch.texture)),
-      MotionRow::number({"motion-fraction", "Motion fraction",
-                         "With touch, the fraction of the force of the film's motion that is felt "
-                         "besides. Without "
-                         "touch, all of it is"},
-                        0, 1, kControllable, KEPT_IN(touch.motion_fraction)),
+      MotionRow::number(
+          {"motion-fraction", "Motion fraction",
+           "With touch, the fraction of the force of the film's motion that is felt besides"},
+          0, 1, kControllable, KEPT_IN(touch.motion_fraction)),
   };
 }
 
@@ -273,22 +252,19 @@ MotionRow device_row() {
 /// From `ts-offset` to `track`: what an application asks of the element as a whole.
 std::vector<MotionRow> element_rows() {
   return {
-      MotionRow::offset(
-          {"ts-offset", "Timestamp offset",
-           "Render the force later (positive) or earlier (negative) than the frame is "
-           "shown, in nanoseconds"},
-          -10 * GST_SECOND, 10 * GST_SECOND, kControllable, KEPT_IN(ts_offset_ns)),
+      MotionRow::offset({"ts-offset", "Timestamp offset",
+                         "How much later than its frame the force is rendered, in nanoseconds; "
+                         "earlier if negative"},
+                        -10 * GST_SECOND, 10 * GST_SECOND, kControllable, KEPT_IN(ts_offset_ns)),
       on_device_error_row<MotionProperties>(),
-      MotionRow::on_off(
-          {"post-messages", "Post messages",
-           "Post a 'spidar-motion' element message for each frame, as long as fewer than "
-           "1000 of them wait on the bus"},
-          kPlaying, KEPT_IN(post_messages)),
-      MotionRow::text(
-          {"trace", "Trace",
-           "File that gets a line for each frame, with motion and force: .csv, or .jsonl with "
-           "background and objects too. Opened before PAUSED"},
-          kReady, KEPT_IN(trace)),
+      MotionRow::on_off({"post-messages", "Post messages",
+                         "Post a 'spidar-motion' element message for each frame, while fewer than "
+                         "1000 wait on the bus"},
+                        kPlaying, KEPT_IN(post_messages)),
+      MotionRow::text({"trace", "Trace",
+                       "File that gets a line for each frame, with motion and force: .csv, or "
+                       ".jsonl with background and objects too"},
+                      kReady, KEPT_IN(trace)),
       haptic_trace_row<MotionProperties>(),
       MotionRow::statistics(
           {"stats", "Statistics",

@@ -97,25 +97,21 @@ inline const PropertyTable<SinkProperties>& sink_properties() {
       Property<SinkProperties>::number(
           {"max-force", "Maximum force", "Largest force on the grip, in newtons"}, 0, 20,
           kControllable, KEPT_IN(max_force_N)),
-      Property<SinkProperties>::number(
-          {"gain", "Gain",
-           "Factor on force and torque of the track. A change takes effect after the 0.2 s "
-           "of samples that are already queued"},
-          0, 100, kControllable, KEPT_IN(gain)),
+      Property<SinkProperties>::number({"gain", "Gain",
+                                        "Factor on force and torque of the track. A change takes "
+                                        "effect after the 0.2 s of queued samples"},
+                                       0, 100, kControllable, KEPT_IN(gain)),
       Property<SinkProperties>::on_off(
           {"mute", "Mute",
-           "While true, no force: it ramps to zero at once, and returns 0.2 s after the "
-           "property is set to false"},
+           "No force: it ramps to zero at once, and returns 0.2 s after this is false"},
           kControllable, KEPT_IN(mute)),
-      Property<SinkProperties>::on_off(
-          {"post-messages", "Post messages",
-           "Post a 'spidar-motion' element message for each 40 ms of the track, as long as fewer "
-           "than 1000 of them wait on the bus"},
-          kPlaying, KEPT_IN(post_messages)),
+      Property<SinkProperties>::on_off({"post-messages", "Post messages",
+                                        "Post a 'spidar-motion' element message for each 40 ms of "
+                                        "the track, while fewer than 1000 wait on the bus"},
+                                       kPlaying, KEPT_IN(post_messages)),
       Property<SinkProperties>::on_off(
           {"accept-unmarked", "Accept unmarked",
-           "Feel sound of six channels that nothing marks as a haptic track. Tracks that "
-           "spidarextract and spidartrack make are marked by a tag; other sound is not felt"},
+           "Feel sound of six channels without the tag that marks a haptic track"},
           kReady, KEPT_IN(accept_unmarked)),
       on_device_error_row<SinkProperties>(),
       haptic_trace_row<SinkProperties>(),
