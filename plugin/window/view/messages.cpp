@@ -3,11 +3,14 @@
 #include "plugin/window/view/messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -18,38 +21,137 @@
 
 namespace spidar::window {
 
-/// Writes values, or reads what was written. A structure is passed by one function, `template
-/// <typename Wire> void transfer(Wire&, T&)`, which calls wire(…) for each of its members. Writing
-/// does not change it.
+namespace {
+
+/// Every structure that goes through the socket, member by member, with the ranges of its values.
+struct Members {
+  static auto of(ImagePoint& p) { return std::tie(p.x_px, p.y_px); }
+  static auto of(PicturePart& p) { return std::tie(p.x, p.y, p.width, p.height); }
+  static auto of(FilmPlace& p) { return std::tie(p.area, p.picture_width, p.picture_height); }
+  static auto of(Wrench& w) { return std::tie(w.force_N, w.torque_Nm); }
+
+  // The frame.
+  static auto of(FrameStamp& s) {
+    return std::tie(s.epoch, s.stream_ns, s.running_ns, s.length_ns, s.rate);
+  }
+  static auto of(FilmScene& f) { return std::tie(f.path, f.begin_ns, f.length_ns); }
+  static auto of(OwnedPoint& p) {
+    return std::tie(p.id, p.from, p.to, p.object, p.is_new, p.owner);
+  }
+  static auto of(MovingObject& o) {
+    return std::tie(o.id, o.position_px, o.size_px, o.low_off_px, o.high_off_px, o.relative_px_s,
+                    o.on_screen_px_s, o.growth_1_s, o.roll_rad_s, o.points, o.error_px_s,
+                    o.area_px2, o.prominence);
+  }
+  static auto of(ControllerSettings& c) { return std::tie(c.law, c.max_force_N, c.alpha_s_px); }
+  static auto of(TouchScene& t) {
+    return std::tie(t.on, t.pointer, t.stiffness_N_m, t.motion_fraction, t.shading);
+  }
+  /// What is shown of it.
+  static auto of(DrawnFrame& r) {
+    Frame& f = r.frame;
+    return std::tie(f.stamp, f.place, f.interval_ns, f.objects, f.wrench, f.felt_object, r.film,
+                    r.took_ns, r.visible, r.turn, r.points, r.lost, r.felt, r.motion, r.controller,
+                    r.speed_px_s, r.click, r.touch, r.track);
+  }
+
+  // The element.
+  static auto of(Pose& p) { return std::tie(p.position_m, p.orientation.coeffs()); }
+  static auto of(touch::Contact& c) {
+    return std::tie(c.has_surface, c.touching, c.depth_m, c.proxy_m, c.force_N);
+  }
+  /// What is drawn of it.
+  static auto of(TickRecord& t) {
+    return std::tie(t.monotonic_ns, t.lateness_ns, t.running_ns, t.wanted, t.delivered, t.tension_N,
+                    t.pose, t.faulty_string, t.playing, t.max_force_N, t.contact, t.device);
+  }
+  static auto of(ForceTick& t) { return std::tie(t.monotonic_ns, t.wanted_N, t.delivered_N); }
+  static auto of(StringGeometry& g) { return std::tie(g.count, g.exit_m, g.grip_m); }
+  static auto of(DeviceView& d) {
+    return std::tie(d.name, d.has_hand, d.has_strings, d.last, d.overruns, d.ticks, d.geometry,
+                    d.min_tension_N, d.max_tension_N);
+  }
+  static auto of(Setting::Choice& c) { return std::tie(c.value, c.name); }
+  static auto of(Setting& s) {
+    return std::tie(s.name, s.help, s.value, s.low, s.high, s.choices, s.usual, s.kind);
+  }
+
+  // The messages.
+  static auto of(PictureMemory& m) { return std::tie(m.id, m.caps, m.slots, m.slot_bytes); }
+  static auto of(FrameShown& f) { return std::tie(f.memory, f.slot, f.report); }
+  static auto of(ElementState& s) {
+    return std::tie(s.name, s.is_playing, s.has_ended, s.device, s.settings, s.presets, s.no_force,
+                    s.rules);
+  }
+  static auto of(ChoicesSaved& s) { return std::tie(s.is_done, s.what); }
+  static auto of(TakePicture& t) { return std::tie(t.path); }
+  static auto of(Mouse& m) { return std::tie(m.at_px, m.down, m.shift, m.wheel, m.taken); }
+  static auto of(UserInput& i) { return std::tie(i.key, i.mouse, i.size_px); }
+  static auto of(Close&) { return std::tie(); }
+  static auto of(Ask&) { return std::tie(); }
+  static auto of(SlotFree& s) { return std::tie(s.memory, s.slot); }
+  static auto of(ChangeSetting& c) { return std::tie(c.name, c.value); }
+  static auto of(LoadPreset& p) { return std::tie(p.name); }
+  static auto of(LeadHand& l) { return std::tie(l.to_m); }
+  static auto of(ChooseObject& c) { return std::tie(c.position); }
+  static auto of(FeelEdit& e) { return std::tie(e.from_ns, e.to_ns, e.position); }
+  static auto of(SaveChoices& s) { return std::tie(s.film, s.edits); }
+  static auto of(PlayFilm& p) { return std::tie(p.plays); }
+  static auto of(SeekFilm& s) { return std::tie(s.to_ns); }
+  static auto of(PictureTaken& t) { return std::tie(t.error); }
+  static auto of(CannotOpen& c) { return std::tie(c.what, c.advice); }
+
+  /// The largest value of an enumeration.
+  static constexpr auto last(PointOwner) { return PointOwner::kObject; }
+  static constexpr auto last(ControlLaw) { return ControlLaw::kAdaptive; }
+  static constexpr auto last(MotionKind) { return MotionKind::kCamera; }
+  static constexpr auto last(DeviceState) { return DeviceState::kLost; }
+  static constexpr auto last(Setting::Kind) { return Setting::Kind::kNumber; }
+
+  /// Whether the sizes in a structure are in their range.
+  template <typename Value>
+  static bool are_fitting(const Value&) {
+    return true;
+  }
+  static bool are_fitting(const PictureMemory& m) { return m.slots <= PictureMemory::kMaxSlots; }
+  static bool are_fitting(const StringGeometry& g) {
+    return g.count >= 0 && g.count <= kMaxStrings;
+  }
+  static bool are_fitting(const TouchScene& t) {
+    return t.shading.empty() || t.shading.size() == touch::HeightField::kCells;
+  }
+};
+
+/// Writes values, or reads what was written. Writing does not change them.
 ///
 /// Reading survives all other bytes: once a value does not fit into what is left or into its own
 /// range, ok() is false, and the values are of no use.
-template <bool kIsReader>
+template <bool kReads>
 class Wire {
  public:
-  static constexpr bool kReads = kIsReader;
-
   Wire() = default;
   Wire(const uint8_t* bytes, size_t count) : next_(bytes), left_(count) {}
 
-  template <typename... Values>
-  void operator()(Values&... values) {
-    (one(values), ...);
+  template <typename Value>
+  void one(Value& value) {
+    if constexpr (std::is_arithmetic_v<Value>) {
+      raw(&value, sizeof value);
+    } else if constexpr (std::is_enum_v<Value>) {
+      auto number = static_cast<int32_t>(value);
+      one(number);
+      if (number < 0 || number > static_cast<int32_t>(Members::last(value))) return fail();
+      if constexpr (kReads) value = static_cast<Value>(number);
+    } else {
+      std::apply([this](auto&... members) { (one(members), ...); }, Members::of(value));
+      if (!Members::are_fitting(value)) fail();
+    }
   }
-  /// `last`: the largest value of the enumeration.
-  template <typename Enum>
-  void choice(Enum& value, Enum last) {
-    auto number = static_cast<int32_t>(value);
-    one(number);
-    if (number < 0 || number > static_cast<int32_t>(last)) return fail();
-    if constexpr (kReads) value = static_cast<Enum>(number);
-  }
-  void fail() { ok_ = false; }
   bool ok() const { return ok_; }
   bool is_at_end() const { return left_ == 0; }
   std::vector<uint8_t>& bytes() { return written_; }
 
  private:
+  void fail() { ok_ = false; }
   bool has(size_t count) {
     if (count > left_) fail();
     return ok_;
@@ -84,6 +186,27 @@ class Wire {
     if constexpr (kReads) text.resize(count);
     raw(text.data(), count);
   }
+  /// Empty for null.
+  void one(std::shared_ptr<const std::string>& path) {
+    std::string text = path ? *path : "";
+    one(text);
+    if constexpr (kReads) {
+      path = text.empty() ? nullptr : std::make_shared<const std::string>(std::move(text));
+    }
+  }
+  void one(std::shared_ptr<const FeelRules>& rules) {
+    std::string text = rules ? rules->text() : "";
+    one(text);
+    if constexpr (kReads) {
+      rules.reset();
+      if (!ok_ || text.empty()) return;
+      try {
+        rules = std::make_shared<const FeelRules>(text);
+      } catch (const FeelRulesError&) {
+        fail();
+      }
+    }
+  }
   /// A function of its own, or GCC 12 warns that a value that is not there may be used.
   template <typename Value>
   [[gnu::noinline]] void one(std::optional<Value>& value) {
@@ -103,17 +226,33 @@ class Wire {
       one(values[i]);
     }
   }
+  template <typename Value, size_t kCount>
+  void one(std::array<Value, kCount>& values) {
+    for (Value& value : values) one(value);
+  }
   template <int kRows, int kColumns, int kOptions>
   void one(Eigen::Matrix<double, kRows, kColumns, kOptions>& matrix) {
     raw(matrix.data(), sizeof(double) * static_cast<size_t>(matrix.size()));
   }
-  template <typename Value>
-  void one(Value& value) {
-    if constexpr (std::is_arithmetic_v<Value>) {
-      raw(&value, sizeof value);
-    } else {
-      transfer(*this, value);
-    }
+  /// As one of the eight ways in which a picture can be turned.
+  void one(Orientation& turn) {
+    constexpr int kQuarters = 4;
+    const auto way = [](int n) { return Orientation(n % kQuarters, n >= kQuarters); };
+    const auto is_same = [&](const Orientation& other) {
+      return other.to_displayed(Eigen::Vector2d(1, 2)) == turn.to_displayed(Eigen::Vector2d(1, 2));
+    };
+    int32_t number = 0;
+    while (!kReads && number < 2 * kQuarters - 1 && !is_same(way(number))) ++number;
+    one(number);
+    if (number < 0 || number >= 2 * kQuarters) return fail();
+    if constexpr (kReads) turn = way(number);
+  }
+  void one(GripPointer& pointer) {
+    Eigen::Vector2d half_size_m = pointer.half_size_m();
+    Orientation turn = pointer.turn();
+    one(half_size_m);
+    one(turn);
+    if constexpr (kReads) pointer = {half_size_m, turn};
   }
 
   std::vector<uint8_t> written_;
@@ -122,278 +261,13 @@ class Wire {
   bool ok_ = true;
 };
 
-// Every structure that goes through the socket, member by member; see Wire.
-
-template <typename Wire>
-void transfer(Wire& wire, ImagePoint& point) {
-  wire(point.x_px, point.y_px);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, PicturePart& part) {
-  wire(part.x, part.y, part.width, part.height);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, FilmPlace& place) {
-  wire(place.area, place.picture_width, place.picture_height);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, Wrench& wrench) {
-  wire(wrench.force_N, wrench.torque_Nm);
-}
-
-/// As one of the eight ways in which a picture can be turned.
-template <typename Wire>
-void transfer(Wire& wire, Orientation& turn) {
-  constexpr int kQuarters = 4;
-  const auto way = [](int number) { return Orientation(number % kQuarters, number >= kQuarters); };
-  const auto is_same = [&](const Orientation& other) {
-    return other.to_displayed(Eigen::Vector2d(1, 2)) == turn.to_displayed(Eigen::Vector2d(1, 2));
-  };
-  int32_t number = 0;
-  while (!Wire::kReads && number < 2 * kQuarters - 1 && !is_same(way(number))) ++number;
-  wire(number);
-  if (number < 0 || number >= 2 * kQuarters) return wire.fail();
-  if constexpr (Wire::kReads) turn = way(number);
-}
-
-// --- the frame
-
-template <typename Wire>
-void transfer(Wire& wire, FrameStamp& stamp) {
-  wire(stamp.epoch, stamp.stream_ns, stamp.running_ns, stamp.length_ns, stamp.rate);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, FilmScene& film) {
-  std::string path = film.name();
-  wire(path, film.begin_ns, film.length_ns);
-  if constexpr (Wire::kReads) film.path = std::make_shared<const std::string>(std::move(path));
-}
-
-template <typename Wire>
-void transfer(Wire& wire, OwnedPoint& point) {
-  wire(point.id, point.from, point.to, point.object, point.is_new);
-  wire.choice(point.owner, PointOwner::kObject);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, MovingObject& object) {
-  wire(object.id, object.position_px, object.size_px, object.low_off_px, object.high_off_px,
-       object.relative_px_s, object.on_screen_px_s, object.growth_1_s, object.roll_rad_s,
-       object.points, object.error_px_s, object.area_px2, object.prominence);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ControllerSettings& controller) {
-  wire.choice(controller.law, ControlLaw::kAdaptive);
-  wire(controller.max_force_N, controller.alpha_s_px);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, TouchScene& touch) {
-  Eigen::Vector2d half_size_m = touch.pointer.half_size_m();
-  Orientation turn = touch.pointer.turn();
-  wire(touch.on, half_size_m, turn, touch.stiffness_N_m, touch.motion_fraction, touch.shading);
-  if (!touch.shading.empty() && touch.shading.size() != touch::HeightField::kCells) {
-    return wire.fail();
-  }
-  if constexpr (Wire::kReads) touch.pointer = {half_size_m, turn};
-}
-
-/// What is shown of it.
-template <typename Wire>
-void transfer(Wire& wire, DrawnFrame& report) {
-  Frame& frame = report.frame;
-  wire(frame.stamp, frame.place, frame.interval_ns, frame.objects, frame.wrench, frame.felt_object);
-  wire(report.film, report.took_ns, report.visible, report.turn, report.points, report.lost,
-       report.felt);
-  wire.choice(report.motion, MotionKind::kCamera);
-  wire(report.controller, report.speed_px_s, report.click, report.touch);
-  std::string track = report.track ? *report.track : "";
-  wire(track);
-  if constexpr (Wire::kReads) {
-    report.track = track.empty() ? nullptr : std::make_shared<const std::string>(std::move(track));
-  }
-}
-
-// --- the element
-
-template <typename Wire>
-void transfer(Wire& wire, Pose& pose) {
-  wire(pose.position_m, pose.orientation.coeffs());
-}
-
-template <typename Wire>
-void transfer(Wire& wire, touch::Contact& contact) {
-  wire(contact.has_surface, contact.touching, contact.depth_m, contact.proxy_m, contact.force_N);
-}
-
-/// Of a tick, what is drawn.
-template <typename Wire>
-void transfer(Wire& wire, TickRecord& tick) {
-  wire(tick.monotonic_ns, tick.lateness_ns, tick.running_ns, tick.wanted, tick.delivered,
-       tick.tension_N, tick.pose, tick.faulty_string, tick.playing, tick.max_force_N, tick.contact);
-  wire.choice(tick.device, DeviceState::kLost);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ForceTick& tick) {
-  wire(tick.monotonic_ns, tick.wanted_N, tick.delivered_N);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, StringGeometry& geometry) {
-  wire(geometry.count);
-  if (geometry.count < 0 || geometry.count > kMaxStrings) return wire.fail();
-  for (Eigen::Vector3d& exit_m : geometry.exit_m) wire(exit_m);
-  for (Eigen::Vector3d& grip_m : geometry.grip_m) wire(grip_m);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, DeviceView& device) {
-  wire(device.name, device.has_hand, device.has_strings, device.last, device.overruns, device.ticks,
-       device.geometry, device.min_tension_N, device.max_tension_N);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, Setting::Choice& choice) {
-  wire(choice.value, choice.name);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, Setting& setting) {
-  wire(setting.name, setting.help, setting.value, setting.low, setting.high, setting.choices,
-       setting.usual);
-  wire.choice(setting.kind, Setting::Kind::kNumber);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, std::shared_ptr<const FeelRules>& rules) {
-  std::string text = rules ? rules->text() : "";
-  wire(text);
-  if constexpr (Wire::kReads) {
-    rules.reset();
-    if (!wire.ok() || text.empty()) return;
-    try {
-      rules = std::make_shared<const FeelRules>(text);
-    } catch (const FeelRulesError&) {
-      wire.fail();
-    }
-  }
-}
-
-// --- the messages
-
-template <typename Wire>
-void transfer(Wire& wire, PictureMemory& memory) {
-  wire(memory.id, memory.caps, memory.slots, memory.slot_bytes);
-  if (memory.slots > PictureMemory::kMaxSlots) wire.fail();
-}
-
-template <typename Wire>
-void transfer(Wire& wire, FrameShown& frame) {
-  wire(frame.memory, frame.slot, frame.report);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ElementState& state) {
-  wire(state.name, state.is_playing, state.has_ended, state.device, state.settings, state.presets,
-       state.no_force, state.rules);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ChoicesSaved& saved) {
-  wire(saved.is_done, saved.what);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, TakePicture& take) {
-  wire(take.path);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, Mouse& mouse) {
-  wire(mouse.at_px, mouse.down, mouse.shift, mouse.wheel, mouse.taken);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, UserInput& input) {
-  wire(input.key, input.mouse, input.size_px);
-}
-
-template <typename Wire>
-void transfer(Wire&, Close&) {}
-
-template <typename Wire>
-void transfer(Wire&, Ask&) {}
-
-template <typename Wire>
-void transfer(Wire& wire, SlotFree& free) {
-  wire(free.memory, free.slot);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ChangeSetting& change) {
-  wire(change.name, change.value);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, LoadPreset& preset) {
-  wire(preset.name);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, LeadHand& lead) {
-  wire(lead.to_m);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, ChooseObject& choose) {
-  wire(choose.position);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, FeelEdit& edit) {
-  wire(edit.from_ns, edit.to_ns, edit.position);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, SaveChoices& save) {
-  wire(save.film, save.edits);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, PlayFilm& play) {
-  wire(play.plays);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, SeekFilm& seek) {
-  wire(seek.to_ns);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, PictureTaken& taken) {
-  wire(taken.error);
-}
-
-template <typename Wire>
-void transfer(Wire& wire, CannotOpen& failed) {
-  wire(failed.what, failed.advice);
-}
-
-namespace {
-
 template <typename Message>
 std::vector<uint8_t> write(const Message& message) {
   Wire<false> wire;
   auto kind = static_cast<uint8_t>(message.index());
+  wire.one(kind);
   // A writer changes nothing of what it is given; only a reader does.
-  auto& written = const_cast<Message&>(message);
-  std::visit([&](auto& content) { wire(kind, content); }, written);
+  std::visit([&](auto& content) { wire.one(content); }, const_cast<Message&>(message));
   return std::move(wire.bytes());
 }
 
@@ -404,7 +278,7 @@ std::optional<Message> read_kind(Wire<true>& wire, size_t kind) {
   if constexpr (kKind < std::variant_size_v<Message>) {
     if (kind != kKind) return read_kind<Message, kKind + 1>(wire, kind);
     std::variant_alternative_t<kKind, Message> part;
-    wire(part);
+    wire.one(part);
     if (wire.ok() && wire.is_at_end()) return Message(std::move(part));
   }
   return std::nullopt;
@@ -414,7 +288,7 @@ template <typename Message>
 std::optional<Message> read(const std::vector<uint8_t>& bytes) {
   Wire<true> wire(bytes.data(), bytes.size());
   uint8_t kind = 0;
-  wire(kind);
+  wire.one(kind);
   return wire.ok() ? read_kind<Message>(wire, kind) : std::nullopt;
 }
 
