@@ -211,6 +211,15 @@ class Figures(unittest.TestCase):
             found = self.wrong(rows, folder)
             self.assertEqual((len(found), "a.md: 0.25 below" in found[0]), (1, True), found)
 
+    def test_of_a_text_those_figures_that_its_row_names(self):
+        rows = [["a.md", "*", "*", "-", "-", "-", ""], ["a.md", "Speed", "text", "-", "cost", "0.1: 3.5", ""]]
+        with tempfile.TemporaryDirectory() as folder:
+            for printed, wrong in ("3.6", 0), ("3.5e-3", 1), ("4", 1):
+                Path(folder, "cost.txt").write_text(printed, encoding="ascii")
+                self.assertEqual(len(self.wrong(rows, folder)), wrong, printed)
+        rows[1][5] = "0.1: 3.6"
+        self.assertIn("3.6 is not below", self.wrong(rows)[0])
+
 
 class Davis(unittest.TestCase):
     STEP = 32
