@@ -22,6 +22,8 @@ import termios
 import threading
 import tty
 
+from own_files import require_other
+
 AXES = {f"{kind}{axis}": f"commanded_{column}_{axis}_{unit}" for kind, column, unit in
         (("f", "force", "N"), ("t", "torque", "Nm")) for axis in "xyz"}
 FULL = {"f": 3.0, "t": 0.1}  # N and N m, the limits of the element
@@ -63,6 +65,7 @@ class Output:
             self.socket.connect(address[4])
             self.message = osc_message
         elif kind in ("midi", "tcode") and place:
+            require_other(place, options.film)
             self.file = os.open(place, os.O_WRONLY | os.O_NOCTTY)
             self.message = (lambda values: midi_message(values, options.control, options.channel)) if kind == "midi" else (
                 lambda values: tcode_message(values, options.axes, max(1, round(1000 / options.rate))))

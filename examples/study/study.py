@@ -31,6 +31,9 @@ from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participa
                      read_rows, read_settings, require_same, utc_now, write_settings)
 from trials import CONDITIONS, QUESTIONS, Trial, analysis_of, open_questions, schedule
 
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from own_files import require_other  # noqa: E402
+
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
 
@@ -59,13 +62,13 @@ class Study:
         self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
         for clip in self.clip_files():  # all clips and properties are right before the first one is shown
             clip_player.uri_of(clip)
+            require_other(getattr(options, "answers", ""), clip)
         filter_ = clip_player.make_filter(self.properties)
         self.device, self.profile, self.limit_N = (
             filter_.get_property(name) for name in ("device", "profile", "max-force"))
 
     @staticmethod
     def open_streams():
-        sys.path.append(str(Path(__file__).resolve().parents[1]))
         import lsl
 
         return lsl.Streams(lsl.load(), platform.node())

@@ -125,8 +125,11 @@ class Film(unittest.TestCase):
     def test_mistakes_are_told_and_no_file_is_written_over(self):
         other = self.folder / "film.mp4"
         other.write_text("a film")
-        for output, said in ((f"midi:{other}", "is a file, and nothing is written over it"), ("osc:here", "is not osc:HOST:PORT"),
-                             ("udp:1", "is none of"), ("tcode:/none", "No such file")):
+        link = self.folder / "link"
+        os.link(self.film, link)
+        for output, said in ((f"tcode:{link}", f"is {self.film}, which is read"),
+                             (f"midi:{other}", "is a file, and nothing is written over it"),
+                             ("osc:here", "is not osc:HOST:PORT"), ("udp:1", "is none of"), ("tcode:/none", "No such file")):
             program = self.start(output)
             self.assertIn(said, program.communicate(timeout=60)[1])
             self.assertEqual(program.returncode, 1)

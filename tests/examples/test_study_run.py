@@ -124,6 +124,8 @@ class Run(unittest.TestCase):
         shown = study("design", self.clip)
         self.assertRegex(shown.stdout, r"(?m)^0.0025 +\d+ .*sway.avi$", shown)
         self.assertRegex(shown.stdout, r"run takes alpha=0\.\d+ s/px", shown)
+        os.link(self.clip, self.file("link.csv"))
+        self.assertIn("which is read", study("register", "--participants", 3, self.file("link.csv"), self.clip).stderr)
         registered = study("register", "--participants", 3, answers, self.clip)
         made = records.digest_of(records.read_settings(answers))
         self.assertRegex(registered.stdout, rf"(?s)3 participants, 1 clips.*Settings: SHA-256 {made}", registered)
