@@ -29,7 +29,9 @@ mean of films: of right %, each film counting once; below half: how many films a
 object, how many have a truth. Truths rest on brightness that stays as it is, as the measured motion does.
 
 In brackets, the 95 % interval of a share over films (shares.py). The second table has the share of right frames
-for other angles and factors than these.
+for other angles and factors than these; the third that of right and false frames if only a motion that is so many times
+faster counts as felt, and right less false: the one number that tells methods apart, since both errors count alike in it,
+and whoever always or never finds a motion has 0 at the most. The fourth compares each method with the first by films.
 
 not right, in per cent of the counted frames, by cause: not yet, the object has not been listed so far; no camera, how
 the camera moves is not known; not found, no listed object is right; not felt, one is right and nothing is felt; another,
@@ -52,17 +54,19 @@ import tempfile
 from collections import Counter
 from pathlib import Path
 
-from shares import CURVE_COLUMNS, curve, mean_of_films, share
+from shares import CURVE_COLUMNS, curve, mean_of_films, paired, right_less_false, share
 
 REFERENCE_LINES = 480
 FELT_PX_S = 2.1
 LEAST_TRUE_PX = 1.0
 FELT_N = 0.04  # the least force that a hand feels
+FASTER = (1, 2, 4, 8, 16, 32)  # than FELT_PX_S
 FRAMES_A_SECOND = 24  # what FELT_PX_S is a speed of where times are not known
 UNSEEN = 2  # frames at the beginning of a film
 # Of `spidar-bench real_film`, and their names in the table.
 METHODS = {"dis:medium:0.5": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
+PAIRED = (("right", "counted"), ("wrong", "counted"), ("false", "without_object"))
 CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
 COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %",
            "not right: " + ", ".join(CAUSES),
@@ -115,7 +119,8 @@ class Frame:
         self.motion, self.seconds, self.height, self.has_camera = motion, seconds, height, has_camera
         self.objects, self.force_N, self.felt_object = objects, force_N, felt_object
         self.model = model if has_camera else "unknown"  # of the motion of the camera
-        self.is_felt = math.hypot(*motion) > FELT_PX_S * seconds * height / REFERENCE_LINES and seconds > 0
+        self.speed_px_s = math.hypot(*motion) / (seconds * height / REFERENCE_LINES) if seconds > 0 else 0
+        self.is_felt = self.speed_px_s > FELT_PX_S
 
 
 def trace_rows(build, film, properties=()):
@@ -198,6 +203,7 @@ class Tally:
         self.has_force = False
         self.films = []  # sums() of each
         self.apart = []  # of each with an object: angle and ratio of speeds in the counted frames, None where none is felt
+        self.right_px_s, self.false_px_s = [], []  # of each film: speeds that were found where they are right, and false
 
     def sums(self):
         return Counter(right=self.right, wrong=self.wrong, felt=self.felt, listed=self.listed, counted=self.counted,
@@ -213,6 +219,8 @@ class Tally:
     def add_film(self, frames, truth, times_ms):
         self.times_ms += times_ms
         self.add_calm(frames)
+        self.right_px_s.append([])
+        self.false_px_s.append([frame.speed_px_s for frame in frames[UNSEEN:]] if truth is None else [])
         if truth is None:
             self.without_object += len(frames) - UNSEEN
             self.false += sum(frame.is_felt for frame in frames[UNSEEN:])
@@ -232,6 +240,7 @@ class Tally:
             self.counted += 1
             self.felt += frames[n].is_felt
             self.right += found == "right"
+            self.right_px_s[-1] += [frames[n].speed_px_s] * (found == "right")
             self.wrong += found == "wrong"
             listed = any(verdict(each, truth[n]) == "right" for each in frames[n].objects)
             self.listed += listed
@@ -260,6 +269,22 @@ class Tally:
             before_N = frame.force_N
             if felt and frame.felt_object not in (0, last):  # 0: none, the force fades
                 self.changes, last = self.changes + (last is not None), frame.felt_object
+
+    def trade_row(self, name):
+        """What becomes of right and false if only faster motions count as felt."""
+        of = lambda speeds, whole, faster: [(sum(each > faster * FELT_PX_S for each in found), film[whole])
+                                            for found, film in zip(speeds, self.films)]
+        pairs = [(of(self.right_px_s, "counted", faster), of(self.false_px_s, "without_object", faster)) for faster in FASTER]
+        return " | ".join([f"| {name}", *(f"{share(right)}, {share(false)}" for right, false in pairs),
+                           right_less_false(*pairs[0]) + " |"])
+
+    def counts(self, part, whole):
+        return [(film.get(part, 0), film[whole]) for film in self.films]
+
+    def film_cells(self):
+        """Of each film right % and wrong %, or false %."""
+        return [f"{100 * film['right'] / film['counted']:.0f}, {100 * film['wrong'] / film['counted']:.0f}" if film["counted"] else
+                f"{100 * film['false'] / film['without_object']:.0f}" if film["without_object"] else "-" for film in self.films]
 
     def row(self, name):
         of = lambda part, whole="counted": share([(film.get(part, 0), film[whole]) for film in self.films])
@@ -309,7 +334,7 @@ def main():
     if not measures:
         print("No ms, and no methods of spidar-bench: it is not built, or without libavformat-dev.\n")
 
-    curves = []
+    tallies = {}
     played = {}  # the frames of each film
     models = Counter()  # of the camera's motion, by frames
     rows = {}  # name of a row: the verdict of each frame, by film
@@ -333,28 +358,40 @@ def main():
                 each_film.setdefault(film.name, []).append(
                     alone.row(film.name if which == build else f"{film.name}, the other version"))
         print(tally.row(name), flush=True)
-        curves.append(curve(name, tally.apart))
+        tallies[name] = tally
     for method, name in METHODS.items() if measures else ():
         tally = Tally()
         for film in films:
             frames, times_ms = measure(program, method, film)
             tally.add(frames, read_truth(film), times_ms)
         print(tally.row(name), flush=True)
-        curves.append(curve(name, tally.apart))
+        tallies[name] = tally
 
     for name, folder in others:
         tally = Tally()
         for film in films:
             tally.add(read_other(folder, film, played[film]), read_truth(film))
         print(tally.row(name), flush=True)
-        curves.append(curve(name, tally.apart))
+        tallies[name] = tally
 
     print("\nThe camera's motion, % of the frames: " + ", ".join(
         f"{model} {100 * n / sum(models.values()):.0f}" for model, n in models.most_common()))
     print("\nRight %, if another angle (at a factor of 2) or another factor (at 30°) counts as right:\n")
     print_head(*CURVE_COLUMNS)
-    print("\n".join(curves))
-    print("\nEach film:\n")
+    print("\n".join(curve(name, tally.apart) for name, tally in tallies.items()))
+    print(f"\nRight %, false % if a motion counts as felt from so many times {FELT_PX_S} px/s on, and right less false:\n")
+    print_head("", *(f"×{faster}" for faster in FASTER), "right − false")
+    print("\n".join(tally.trade_row(name) for name, tally in tallies.items()))
+    first = tallies["this version"]
+    print("\nThis version less each other one, mean of films in %, and p of the paired test:\n")
+    print_head("", "right", "wrong", "false")
+    for name, tally in list(tallies.items())[1:]:
+        print(" | ".join([f"| {name}", *(paired(first.counts(*of), tally.counts(*of)) for of in PAIRED)]) + " |")
+    print("\nEach film: right %, wrong % of those with an object, false % of the others:\n")
+    print_head("", *tallies)
+    for film, *cells in zip(films, *(tally.film_cells() for tally in tallies.values())):
+        print(" | ".join([f"| {film.stem}", *cells]) + " |")
+    print("\nEach film, all columns:\n")
     print_head(*COLUMNS)
     print("\n".join(row for rows_of_film in each_film.values() for row in rows_of_film))
     if older:

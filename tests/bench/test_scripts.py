@@ -70,6 +70,10 @@ class Benchmark(unittest.TestCase):
         self.assertEqual({row["clip"] for row in clips if row["split"] == "third"}, set(third))
         for row in clips:
             self.assertTrue(row["data set"] and row["licence"] and row["redistribute"].split(",")[0] in ("yes", "no"), row)
+            self.assertRegex(row["frames"], r"^\d+(-\d+)?$")
+            self.assertRegex(row["sha256"], r"^([0-9a-f]{16}|-)$")
+            self.assertTrue(row["address"].startswith("http"), row)
+        self.assertEqual(sorted(row["film"] for row in clips), [f"c{n:02d}" for n in range(1, 51)])
 
     def test_each_method_has_all_its_figures(self):
         for row in self.rows("methods.tsv"):
@@ -87,6 +91,9 @@ class Shares(unittest.TestCase):
         # Two films of a thousand frames: half of the resamples draw one of them twice.
         self.assertEqual(shares.interval([(1000, 1000), (0, 1000)]), (0, 1))
         self.assertEqual(shares.interval([(3, 10)] * 8), (0.3, 0.3))
+        # Clopper and Pearson of 0 and of 10 of 10: 1 − 0.025^(1/10)
+        self.assertEqual(shares.share([(0, 30)] * 10), "0.0 (0 to 31)")
+        self.assertEqual(shares.share([(30, 30)] * 10), "100.0 (69 to 100)")
         self.assertIsNone(shares.interval([(3, 10)]))
         self.assertEqual(shares.share([(3, 10), (0, 0)]), "30.0")
         self.assertEqual(shares.share([]), "-")
@@ -112,6 +119,23 @@ class Shares(unittest.TestCase):
         self.assertTrue(shares.within(films, 30, 3).startswith("75.0"))
         self.assertTrue(shares.within(films, 60, 1.1).startswith("62.5"))
 
+    def test_methods_are_compared_by_films(self):
+        some, none = [(9, 10)] * 12, [(0, 10)] * 12
+        mean, p = re.fullmatch(r"([+-][\d.]+), p = ([\d.]+)", shares.paired(some, none)).groups()
+        # All signs alike: 2 of 2^12, and of 4000 draws at least one counts.
+        self.assertEqual((float(mean), float(p) < 0.004), (90, True))
+        self.assertEqual(shares.paired(some, some), "+0.0, p = 1.0000")
+        self.assertEqual(shares.paired(some, [(0, 0)] * 12), "-")
+
+    def test_who_always_or_never_finds_a_motion_has_no_right_less_false(self):
+        for motion, right, said in ((0, 0), "0.0", "0.0"), ((2, 0), "100.0", "0.0"), ((0, 2), "0.0", "-100.0"):
+            tally = Tally()
+            for truth in {n: (2, 0) for n in range(6)}, None:
+                tally.add([Frame(motion, 1 / 24, 480)] * 6, truth)
+            cells = [cell.strip() for cell in tally.trade_row("x").split("|")]
+            self.assertEqual((cells[2].split(",")[0], cells[8].split()[0]), (right, said))
+            self.assertEqual(cells[7], "0.0, 0.0", "of a frame 480 lines high, 48 px/s are not 32 times 2.1")
+
     def test_a_tally_keeps_each_film(self):
         tally = Tally()
         right, across = (Frame(motion, 1 / 24, 480, [motion]) for motion in ((4, 0), (0, 4)))
@@ -119,8 +143,8 @@ class Shares(unittest.TestCase):
             tally.add([frame] * 6, {n: (4, 0) for n in range(6)})
         tally.add([right] * 6, None)
         cells = [cell.strip() for cell in tally.row("x").split("|")]
-        self.assertEqual(cells[2:7], ["50.0 (0 to 100)", "50.0, 1 of 2", "100.0 (100 to 100)", "50.0 (0 to 100)",
-                                      "100.0 (100 to 100)"])
+        self.assertEqual(cells[2:7], ["50.0 (0 to 100)", "50.0, 1 of 2", "100.0 (16 to 100)", "50.0 (0 to 100)",
+                                      "100.0 (16 to 100)"])
         self.assertEqual(cells[7], "100.0", "of one film without an object")
         self.assertEqual([round(frame[0]) for film in tally.apart for frame in film], [0] * 4 + [90] * 4)
 

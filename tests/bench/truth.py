@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 """Makes films with the true motion of their object, for real_films.py, from the frames of a data set.
 
-  truth.py FOLDER OUT [--fps 24]
+  truth.py FOLDER OUT [--fps 24] [--clips real_films/clips.tsv]
 
 FOLDER holds sequences in either of two layouts, at any depth (links to folders are not followed):
   masks, as in DAVIS: JPEGImages/[480p/]NAME/*.jpg and Annotations/[480p/]NAME/*.png, a mask for each
@@ -12,7 +12,9 @@ FOLDER holds sequences in either of two layouts, at any depth (links to folders 
     for each frame with x, y, width, height, or the corners x1, y1, x2, y2, ….
 For each sequence, OUT gets the film NAME.mkv, its frames as they are, and NAME.csv: lines `frame,x,y`,
 the motion of the object against the background since the frame before, in pixels of the film. Where the
-mask leaves free a rectangle of which the camera's motion shows something, still-NAME.mkv is a cut of it.
+mask leaves free a rectangle of which the camera's motion shows something, still-NAME.mkv is a cut of it. With --clips, OUT
+gets those of the table that FOLDER has, under names that do not tell what moves: their frames, cut as it says. Pictures
+that are not those of the table are named.
 
 The motion is measured twice: by Lucas-Kanade on corners of the object, and by the centre of its mask or
 box, smoothed over three frames. Each is taken against a homography that is fitted robustly to corners
@@ -22,6 +24,8 @@ disagree, or where the homography explains less than 60 % of the corners. Needs 
 python3-opencv."""
 
 import argparse
+import csv
+import hashlib
 import re
 import subprocess
 import sys
@@ -251,34 +255,61 @@ def make_film(frames, film, fps, crop=None):
                     *coding, film], check=True, input=b"".join(f.read_bytes() for f in frames))
 
 
+def write_film(name, frames, given, arguments, has_object=True, crop=None):
+    """The film, and its truth if it has an object; returns the objects, and the motion of the picture."""
+    size = gray_of(frames[0]).shape
+    objects = Objects(given, size)
+    make_film(frames, arguments.out / f"{name}.mkv", arguments.fps, crop)
+    motion, camera_px = measure(frames, objects, size[0] / LINES)
+    if has_object:
+        known = [n for n in range(len(frames)) if not np.isnan(motion[n, 0])]
+        lines = [f"{n},{motion[n, 0]:.3f},{motion[n, 1]:.3f}\n" for n in known]
+        (arguments.out / f"{name}.csv").write_text("".join(lines))
+        print(f"{name}: {len(frames)} frames, motion known in {len(known)}")
+    return objects, camera_px
+
+
+def write_clips(sequence, frames, given, arguments):
+    """Those of the table."""
+    with open(arguments.clips, encoding="utf-8", newline="") as table:
+        rows = [row for row in csv.DictReader(table, delimiter="\t") if row["sequence"] == sequence]
+    for row in rows:
+        if "-" not in row["frames"]:
+            print(f"{row['film']}: which {row['frames']} frames of {sequence} it has is not known")
+            continue
+        first, last = map(int, row["frames"].split("-"))
+        part = slice(first - 1, last)
+        crop = None if row["crop"] == "-" else tuple(int(row["crop"].split(":")[n]) for n in (2, 3, 0, 1))
+        digest = hashlib.sha256(b"".join(frame.read_bytes() for frame in frames[part])).hexdigest()
+        if row["sha256"] not in ("-", digest[:16]):
+            print(f"{row['film']}: the pictures of {sequence} are not those of {arguments.clips}")
+        write_film(row["film"], frames[part], given[part], arguments, row["moves"] == "object", crop)
+
+
 def main():
-    parser = argparse.ArgumentParser(usage="truth.py FOLDER OUT [--fps 24]")
+    parser = argparse.ArgumentParser(usage="truth.py FOLDER OUT [--fps 24] [--clips TABLE]")
     parser.add_argument("folder", type=Path)
     parser.add_argument("out", type=Path)
     parser.add_argument("--fps", type=float, default=24)
+    parser.add_argument("--clips", type=Path)
     arguments = parser.parse_args()
     if not arguments.folder.is_dir():
         sys.exit(f"truth.py: {arguments.folder} is not a folder")
     arguments.out.mkdir(parents=True, exist_ok=True)
     made = 0
     for name, frames, given in find_sequences(arguments.folder):
-        size = gray_of(frames[0]).shape
-        unit = size[0] / LINES
-        objects = Objects(given, size)
-        motion, camera_px = measure(frames, objects, unit)
-        make_film(frames, arguments.out / f"{name}.mkv", arguments.fps)
-        known = [n for n in range(len(frames)) if not np.isnan(motion[n, 0])]
-        lines = [f"{n},{motion[n, 0]:.3f},{motion[n, 1]:.3f}\n" for n in known]
-        (arguments.out / f"{name}.csv").write_text("".join(lines))
-        objects.known = {}
-        cut = cut_without(objects, camera_px, unit)
-        if cut:
-            make_film(frames[cut[0]:cut[1]], arguments.out / f"still-{name}.mkv", arguments.fps, cut[2])
-        print(f"{name}: {len(frames)} frames, motion known in {len(known)}, "
-              + (f"a cut of {cut[1] - cut[0]} frames without the object" if cut else "no cut without the object"))
         made += 1
+        if arguments.clips:
+            write_clips(name, frames, given, arguments)
+            continue
+        objects, camera_px = write_film(name, frames, given, arguments)
+        objects.known = {}
+        if cut := cut_without(objects, camera_px, objects.size[0] / LINES):
+            make_film(frames[cut[0]:cut[1]], arguments.out / f"still-{name}.mkv", arguments.fps, cut[2])
+            print(f"{name}: a cut of {cut[1] - cut[0]} frames without the object")
     if made == 0:
         sys.exit(f"truth.py: {arguments.folder} has neither Annotations with masks nor groundtruth*.txt with boxes")
 
 
-main()
+if __name__ == "__main__":
+    main()
