@@ -29,7 +29,6 @@ except ImportError:
 
 sys.path.append(str(FOLDER.parent / "docs"))
 import check_figures  # noqa: E402
-import davis  # noqa: E402
 import gyroscope  # noqa: E402
 from real_films import Frame, Tally, read_other  # noqa: E402
 
@@ -202,9 +201,8 @@ class Gyroscope(unittest.TestCase):
             self.assertAlmostEqual(slope, 1 / 0.9, delta=0.05)
 
     def test_without_a_folder_it_is_skipped(self):
-        for script in "gyroscope.py", "davis.py":
-            done = subprocess.run([sys.executable, FOLDER / script], capture_output=True, text=True, check=True)
-            self.assertTrue(done.stdout.startswith("skipped: no folder"), done)
+        done = subprocess.run([sys.executable, FOLDER / "gyroscope.py"], capture_output=True, text=True, check=True)
+        self.assertTrue(done.stdout.startswith("skipped: no folder"), done)
 
 
 class Figures(unittest.TestCase):
@@ -243,44 +241,6 @@ class Figures(unittest.TestCase):
                 self.assertEqual(len(self.wrong(rows, folder)), wrong, printed)
         rows[1][5] = "0.1: 3.6"
         self.assertIn("3.6 is not below", self.wrong(rows)[0])
-
-
-class Davis(unittest.TestCase):
-    STEP = 32
-
-    def blocks(self, cells, object_id):
-        return np.array([[0, 0, 0, x * self.STEP + 15.5, y * self.STEP + 15.5, object_id] for x, y in cells], float)
-
-    def test_region_similarity_is_intersection_over_union(self):
-        a, b = np.zeros((10, 10), bool), np.zeros((10, 10), bool)
-        self.assertEqual(davis.region_similarity(a, b), 1)
-        a[:, :6], b[:, 4:8] = True, True
-        self.assertEqual(davis.region_similarity(a, b), 20 / 80)
-
-    def test_judges_the_felt_object_and_the_best_one(self):
-        mask = np.zeros((128, 160), bool)
-        mask[32:96, 32:96] = True  # four blocks exactly
-        right, other = self.blocks([(1, 1), (2, 1), (1, 2), (2, 2)], 1), self.blocks([(2, 2), (3, 2)], 2)
-        rest = self.blocks([(0, 0), (1, 0)], 0)
-        tracks = np.concatenate([rest, right, other])
-        nothing = rest, davis.NOTHING
-        frames = [nothing, (tracks, 1), (tracks, 2), (tracks, davis.NOTHING), nothing, nothing]
-        rows = davis.judge(frames, [mask] * 6)
-        self.assertEqual(len(rows), 4, "neither the first nor the last")
-        np.testing.assert_allclose(rows[:, 0], [1, 1 / 5, 0, 0])
-        np.testing.assert_allclose(rows[:, 1], [1, 1, 1, 0])
-        np.testing.assert_allclose(rows[:, 2], 1)
-        np.testing.assert_allclose(rows[:, 3], [0, 0, 0, 1])
-        self.assertEqual(davis.reason(rows), "another")
-        self.assertEqual(davis.reason(rows[3:]), "not found")
-
-    def test_reads_published_results(self):
-        with tempfile.TemporaryDirectory() as folder:
-            for method in davis.PUBLISHED:
-                Path(folder, f"{method}_davis.json").write_text(
-                    json.dumps({"id": method, "bear": {"J": ["0.500", "0.700"], "F": ["0.1", "0.1"]}}))
-            means = davis.read_published(folder)
-        self.assertAlmostEqual(means["sal"]["bear"], 0.6)
 
 
 if __name__ == "__main__":
