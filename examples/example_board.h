@@ -4,9 +4,9 @@
 /// packet of eight 16-bit digits and answers with eight 16-bit counters.
 #pragma once
 
-#include "spidar/boards/board.h"
-#include "spidar/boards/board_parts.h"
-#include "spidar/boards/encoder_counts.h"
+#include "spidar/link/board.h"
+#include "spidar/link/board_parts.h"
+#include "spidar/link/encoder_counts.h"
 
 namespace spidar {
 

@@ -11,14 +11,14 @@
 #include "plugin/gobject/category.h"
 #include "plugin/output/card_reservation.h"
 #include "spidar/devices/device_registry.h"
+#include "spidar/devices/sim/simulated_device.h"
+#include "spidar/devices/sound/sound_cards.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
-#include "spidar/simulation/simulated_device.h"
-#include "spidar/transports/sound_cards.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)

@@ -12,7 +12,7 @@
 #include "core/quantile.h"
 #include "spidar/calibration/model.h"
 #include "spidar/calibration/samples.h"
-#include "spidar/simulation/grip_model.h"
+#include "spidar/devices/sim/grip_model.h"
 #include "spidar/text.h"
 
 namespace spidar::calibration {

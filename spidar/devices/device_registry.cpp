@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/link/emulated_transport.h"
 
 namespace spidar {
 
@@ -57,7 +57,13 @@ boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name
     throw DeviceError(name + ": the driver of " + kind.title + " has no emulated board",
                       DeviceErrorCode::kSettings);
   }
-  auto emulated = kind.emulate(kind.simulated_motors(profile, mechanics));
+  std::shared_ptr<emulated::Motors> motors;
+  if (kind.dac) {
+    motors = std::make_shared<emulated::SimulatedMotors>(profile, kind.dac(profile), mechanics);
+  } else {
+    motors = kind.hand ? kind.hand() : std::make_shared<emulated::Motors>();
+  }
+  auto emulated = kind.emulate(std::move(motors));
   return kind.attach(name, profile, std::make_unique<emulated::Transport>(std::move(emulated)));
 }
 

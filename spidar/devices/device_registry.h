@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "spidar/boards/board.h"
-#include "spidar/devices/device_kind.h"
-#include "spidar/emulation/simulated_motors.h"
+#include "spidar/devices/sim/simulated_motors.h"
+#include "spidar/link/board.h"
+#include "spidar/link/device_kind.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/devices/device_kind.h"
+#include "spidar/link/device_kind.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/device_identity.h"
 #include "spidar/transports/usb_transport.h"

@@ -60,6 +60,9 @@ static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// also at rest.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
+/// Duration of every effect of an input device, so that none outlasts a program that hangs or is
+/// stopped.
+constexpr int kEffect_ms = 150;
 constexpr int kSilence_ms = 50;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr int kAnswer_ms = 800;  // under a sanitizer, programs are up to ten times slower

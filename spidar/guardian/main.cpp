@@ -25,7 +25,6 @@
 
 #include "spidar/guardian/guardian.h"
 #include "spidar/guardian/sleep_inhibitor.h"
-#include "spidar/protocols/force_feedback.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/realtime/uninterrupted.h"
 
@@ -34,12 +33,11 @@ namespace {
 using spidar::GuardianWord;
 using spidar::HostWord;
 using spidar::LastWill;
-namespace ff = spidar::ff;
 
 constexpr int kRetry_ms = 10;
 constexpr int kTransfer_ms = 20;
 /// By then the effects of an input device have ended by themselves.
-constexpr int kInputRetries = ff::kEffect_ms / kRetry_ms;
+constexpr int kInputRetries = spidar::kEffect_ms / kRetry_ms;
 
 /// Whether a file will never take a packet again: its device is gone, or it is none. Of these the
 /// kernel's usbfs gives only ENODEV and ESHUTDOWN; an emulation that this process does not see

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <vector>
 
-#include "spidar/boards/link_thread.h"
 #include "spidar/grip/pose_trust.h"
 #include "spidar/grip/string_grip.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/loop/haptic_loop.h"
 
 namespace spidar::selftest {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/quantile.h"
-#include "spidar/simulation/grip_model.h"
+#include "spidar/devices/sim/grip_model.h"
 
 namespace spidar::selftest {
 namespace {

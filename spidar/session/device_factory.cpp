@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "spidar/boards/force_grip.h"
-#include "spidar/boards/link_thread.h"
 #include "spidar/devices/device_registry.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/devices/usb_search.h"
 #include "spidar/grip/string_grip.h"
-#include "spidar/simulation/simulated_device.h"
+#include "spidar/link/force_grip.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/text.h"
 
 namespace spidar {

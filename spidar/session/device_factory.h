@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "spidar/boards/board.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
+#include "spidar/link/board.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

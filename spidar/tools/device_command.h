@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "spidar/boards/board.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
+#include "spidar/link/board.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/selftest/hold.h"

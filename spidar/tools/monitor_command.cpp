@@ -6,9 +6,9 @@
 
 #include "core/grip/pose_solver.h"
 #include "core/json_text.h"
+#include "spidar/devices/sim/grip_model.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/encoder_scale.h"
-#include "spidar/simulation/grip_model.h"
 #include "spidar/text.h"
 #include "spidar/tools/device_command.h"
 

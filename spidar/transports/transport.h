@@ -12,9 +12,9 @@
 
 #include "spidar/device.h"
 #include "spidar/guardian/guardian.h"
-#include "spidar/protocols/bytes.h"
-#include "spidar/protocols/ftdi.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/transports/bytes.h"
+#include "spidar/transports/ftdi.h"
 
 namespace spidar {
 

@@ -18,10 +18,10 @@
 #include <thread>
 #include <vector>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/released_grip.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/let_go_device.h"

@@ -11,8 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

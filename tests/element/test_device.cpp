@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/video_frames.h"

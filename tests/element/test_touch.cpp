@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/touch/relief_stream.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"

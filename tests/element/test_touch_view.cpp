@@ -10,7 +10,7 @@
 
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
-#include "spidar/simulation/simulated_device.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
 

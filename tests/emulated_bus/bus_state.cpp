@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/devices/device_kind.h"
+#include "spidar/link/device_kind.h"
 #include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"

@@ -11,7 +11,7 @@
 #include <string_view>
 
 #include "spidar/device.h"
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/link/emulated_transport.h"
 #include "tests/emulated_bus/evdev_port.h"
 #include "tests/emulated_bus/exported.h"
 

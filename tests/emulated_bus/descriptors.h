@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "spidar/devices/device_kind.h"
+#include "spidar/link/device_kind.h"
 
 namespace spidar::test {
 

@@ -6,7 +6,7 @@
 
 #include <cstddef>
 
-#include "spidar/protocols/force_feedback.h"
+#include "spidar/devices/force_feedback/packets.h"
 #include "tests/emulated_bus/evdev_port.h"
 
 struct ff_effect;

@@ -19,7 +19,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/protocols/force_feedback.h"
+#include "spidar/devices/force_feedback/packets.h"
 #include "spidar/realtime/monotonic.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/evdev_driver.h"

@@ -18,8 +18,8 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/boards/cyverse_board.h"
-#include "spidar/devices/device_kind.h"
+#include "spidar/devices/cyverse/board.h"
+#include "spidar/link/device_kind.h"
 #include "spidar/profiles/profile_file.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/rehearsed_grip.h"

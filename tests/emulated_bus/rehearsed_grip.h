@@ -6,9 +6,9 @@
 #include <array>
 #include <cstdint>
 
-#include "spidar/boards/board_parts.h"
+#include "spidar/devices/sim/simulated_device.h"
+#include "spidar/link/board_parts.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/emulated_bus/bus_state.h"
 
 namespace spidar::test {

@@ -23,7 +23,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include "spidar/devices/device_kind.h"
+#include "spidar/link/device_kind.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/claim_locks.h"
 

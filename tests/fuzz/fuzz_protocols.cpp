@@ -10,13 +10,13 @@
 #include <cstdint>
 
 #include "numbers.h"
-#include "spidar/boards/encoder_counts.h"
-#include "spidar/protocols/cyverse.h"
-#include "spidar/protocols/force_feedback.h"
-#include "spidar/protocols/inverse3.h"
-#include "spidar/protocols/novint_falcon.h"
-#include "spidar/protocols/spidar_mouse.h"
-#include "spidar/protocols/uart_motor.h"
+#include "spidar/devices/cyverse/packets.h"
+#include "spidar/devices/falcon/packets.h"
+#include "spidar/devices/force_feedback/packets.h"
+#include "spidar/devices/inverse3/packets.h"
+#include "spidar/devices/mouse/packets.h"
+#include "spidar/devices/uart/packets.h"
+#include "spidar/link/encoder_counts.h"
 
 using namespace spidar;
 

@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/force_feedback_board.h"
-#include "spidar/boards/stick_effects.h"
+#include "spidar/devices/force_feedback/board.h"
+#include "spidar/devices/force_feedback/stick_effects.h"
 #include "spidar/session/board_list.h"
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/child_process.h"

@@ -17,7 +17,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/cyverse_board.h"
+#include "spidar/devices/cyverse/board.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/guardian/guardian.h"
 #include "spidar/realtime/monotonic.h"

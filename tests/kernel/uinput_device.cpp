@@ -13,7 +13,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/protocols/force_feedback.h"
+#include "spidar/devices/force_feedback/packets.h"
 #include "spidar/session/board_list.h"
 #include "tests/support/felt_player.h"
 

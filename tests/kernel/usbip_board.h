@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "spidar/devices/device_registry.h"
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/link/emulated_transport.h"
 #include "tests/kernel/usbip_packets.h"
 
 namespace spidar::test {

@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/motion_state.h"
-#include "spidar/simulation/simulated_device.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tick_watch.h"
 

@@ -10,8 +10,8 @@
 #include <gst/video/video.h>
 
 #include "plugin/filter/spidar_motion.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/tick_trace.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/pipelines/stepped_pipeline.h"
 
 namespace spidar::test {

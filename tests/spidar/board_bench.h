@@ -8,11 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "spidar/boards/cyverse_board.h"
-#include "spidar/boards/link_thread.h"
-#include "spidar/boards/uart_board.h"
-#include "spidar/emulation/emulated_boards.h"
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/devices/cyverse/board.h"
+#include "spidar/devices/cyverse/emulated.h"
+#include "spidar/devices/uart/board.h"
+#include "spidar/devices/uart/emulated.h"
+#include "spidar/link/emulated_transport.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/kinds.h"
 #include "tests/support/recorded_motors.h"

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "spidar/devices/device_registry.h"
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/link/emulated_transport.h"
 
 namespace spidar::test {
 

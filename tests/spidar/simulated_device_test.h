@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 

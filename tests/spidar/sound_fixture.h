@@ -18,7 +18,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/sound.h"
+#include "spidar/devices/sound/packets.h"
 #include "spidar/session/device_factory.h"
 #include "tests/support/emulated_card.h"
 #include "tests/support/pushed_grip.h"

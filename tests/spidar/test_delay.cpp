@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/selftest/delay_test.h"

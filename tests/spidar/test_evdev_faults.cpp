@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/force_feedback_board.h"
-#include "spidar/boards/force_grip.h"
+#include "spidar/devices/force_feedback/board.h"
+#include "spidar/devices/force_feedback/evdev_transport.h"
+#include "spidar/link/force_grip.h"
 #include "spidar/session/haptic_session.h"
-#include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/pushed_grip.h"

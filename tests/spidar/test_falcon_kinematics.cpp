@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/falcon_kinematics.h"
+#include "spidar/devices/falcon/kinematics.h"
 
 namespace spidar::test::falcon_kinematics_test {
 namespace {

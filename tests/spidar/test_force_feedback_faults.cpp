@@ -17,9 +17,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/stick_effects.h"
+#include "spidar/devices/force_feedback/evdev_transport.h"
+#include "spidar/devices/force_feedback/stick_effects.h"
 #include "spidar/realtime/thread_setup.h"
-#include "spidar/transports/evdev_transport.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"

@@ -12,8 +12,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/grip_model.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/grip_model.h"
 
 namespace spidar::test::grip_model_test {
 

@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"

@@ -21,8 +21,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
 #include "spidar/guardian/guardian.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"

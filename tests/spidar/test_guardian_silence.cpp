@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"

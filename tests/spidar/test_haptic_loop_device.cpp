@@ -7,8 +7,8 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 
 namespace spidar::test::haptic_loop_device_test {

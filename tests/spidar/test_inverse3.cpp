@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/inverse3.h"
+#include "spidar/devices/inverse3/packets.h"
 
 namespace spidar::test::inverse3_test {
 namespace {

@@ -11,10 +11,10 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/let_go_device.h"
 

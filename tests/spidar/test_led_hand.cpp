@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/simulation/grip_model.h"
+#include "spidar/devices/sim/grip_model.h"
 #include "tests/spidar/simulated_device_test.h"
 
 namespace spidar::test::led_hand_test {

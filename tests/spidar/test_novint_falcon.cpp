@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/novint_falcon.h"
+#include "spidar/devices/falcon/packets.h"
 
 namespace spidar::test::novint_falcon_test {
 namespace {

@@ -10,10 +10,11 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/cyverse.h"
-#include "spidar/protocols/force_feedback.h"
-#include "spidar/protocols/spidar_mouse.h"
-#include "spidar/protocols/uart_motor.h"
+#include "spidar/devices/cyverse/packets.h"
+#include "spidar/devices/force_feedback/packets.h"
+#include "spidar/devices/mouse/packets.h"
+#include "spidar/devices/uart/packets.h"
+#include "spidar/guardian/guardian.h"
 
 namespace spidar::test::protocols_test {
 namespace {
@@ -213,12 +214,12 @@ TEST(ForceFeedbackPackets, AreTheKernelsStructures) {
   // struct ff_effect: type, id, direction, trigger, replay, then what is of the type from 16 on.
   std::vector<uint8_t> right = {0x52, 0, 0x03, 0, 0x00, 0x40};
   right = padded(right, 48);
-  right[10] = ff::kEffect_ms;
+  right[10] = kEffect_ms;
   right[16] = 0xFE;  // −2
   right[17] = 0xFF;
   EXPECT_EQ(bytes_of(ff::encode_constant(3, ff::Direction::kLeft, -2)), right);
   std::vector<uint8_t> rumble = padded({0x50, 0, 0xFF, 0xFF}, 48);
-  rumble[10] = ff::kEffect_ms;
+  rumble[10] = kEffect_ms;
   rumble[16] = 0x34;
   rumble[17] = 0x12;
   EXPECT_EQ(bytes_of(ff::encode_rumble(ff::kNewEffect, 0x1234)), rumble);

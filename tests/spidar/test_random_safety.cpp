@@ -15,9 +15,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/random_motion.h"

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/grip/tension_command.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"

@@ -15,10 +15,10 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/sound.h"
+#include "spidar/devices/sound/packets.h"
+#include "spidar/devices/sound/sound_cards.h"
+#include "spidar/devices/sound/sound_transport.h"
 #include "spidar/session/board_list.h"
-#include "spidar/transports/sound_cards.h"
-#include "spidar/transports/sound_transport.h"
 #include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
 

@@ -3,10 +3,10 @@
 /// Sound cards that are coarse, large, without a clock, or fail.
 #include <alsa/asoundlib.h>
 
-#include "spidar/boards/sound_board.h"
-#include "spidar/emulation/emulated_force_devices.h"
+#include "spidar/devices/sound/board.h"
+#include "spidar/devices/sound/emulated.h"
+#include "spidar/devices/sound/sound_transport.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/transports/sound_transport.h"
 #include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
 

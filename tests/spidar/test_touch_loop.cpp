@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/tick_trace.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/rest_force.h"

@@ -12,9 +12,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
-#include "spidar/boards/uart_board.h"
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/devices/uart/board.h"
+#include "spidar/link/emulated_transport.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_transport.h"
 #include "tests/spidar/board_bench.h"

@@ -15,9 +15,9 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/boards/link_thread.h"
 #include "spidar/devices/device_registry.h"
-#include "spidar/protocols/inverse3.h"
+#include "spidar/devices/inverse3/packets.h"
+#include "spidar/link/link_thread.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"

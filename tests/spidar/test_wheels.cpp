@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/transports/evdev_list.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 

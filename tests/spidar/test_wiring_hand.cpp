@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/selftest/wiring_report.h"
-#include "spidar/simulation/simulated_device.h"
 #include "tests/support/miswired_device.h"
 
 namespace spidar::test::wiring_hand_test {

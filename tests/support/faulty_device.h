@@ -8,7 +8,7 @@
 #include <string>
 
 #include "spidar/device.h"
-#include "spidar/simulation/simulated_device.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "tests/support/tampered_device.h"
 
 namespace spidar::test {

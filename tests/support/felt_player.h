@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/protocols/force_feedback.h"
+#include "spidar/devices/force_feedback/packets.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"

@@ -15,7 +15,7 @@
 #include <thread>
 #include <vector>
 
-#include "spidar/protocols/inverse3.h"
+#include "spidar/devices/inverse3/packets.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::test {

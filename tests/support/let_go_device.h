@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "spidar/device.h"
+#include "spidar/devices/sim/grip_model.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/grip_model.h"
 
 namespace spidar::test {
 

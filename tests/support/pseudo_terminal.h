@@ -16,7 +16,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "spidar/emulation/emulated_boards.h"
+#include "spidar/devices/uart/emulated.h"
 
 namespace spidar::test {
 

@@ -3,8 +3,8 @@
 /// Devices that take a force, driven without a loop.
 #pragma once
 
-#include "spidar/boards/board.h"
 #include "spidar/grip/grip.h"
+#include "spidar/link/board.h"
 
 namespace spidar::test {
 

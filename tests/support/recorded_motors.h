@@ -7,7 +7,7 @@
 #include <atomic>
 #include <vector>
 
-#include "spidar/emulation/emulated_transport.h"
+#include "spidar/link/emulated_transport.h"
 
 namespace spidar::test {
 

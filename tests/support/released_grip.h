@@ -8,9 +8,9 @@
 #include <functional>
 #include <memory>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/grip/string_geometry.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/profiles/profile.h"
-#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 

@@ -24,7 +24,7 @@ struct Hand {
 constexpr Hand kFirmHand{"firm", 300, 8};
 constexpr Hand kLightHand{"light", 100, 2};
 
-/// A mass with the figures of the simulated SPIDAR-GCC (spidar/simulation/grip_model.h, its
+/// A mass with the figures of the simulated SPIDAR-GCC (spidar/devices/sim/grip_model.h, its
 /// profile, SafetyLimits), but without strings. The force commanded in a tick follows from where
 /// the grip was in the exchange before, is held for the tick, and lags behind in the drive.
 class TouchedGrip {

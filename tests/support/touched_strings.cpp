@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/simulation/simulated_device.h"
 
 namespace spidar::test {
 namespace {

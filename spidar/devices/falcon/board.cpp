@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/devices/falcon/board.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "spidar/devices/falcon/kinematics.h"
+#include "spidar/link/board_parts.h"
+#include "spidar/user_folder.h"
+#include "spidar/whole_file.h"
+
+namespace spidar::boards {
+namespace {
+
+/// The published program tries a hundred times, of which few are needed.
+constexpr int kHellos = 10;
+/// The published ones have 7 to 9 kB.
+constexpr size_t kMaxFirmware = 65'536;
+
+std::string firmware_path() {
+  if (const char* named = secure_getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;
+  const std::filesystem::path folder = user_folder("XDG_DATA_HOME", ".local/share");
+  return folder.empty() ? "" : folder / "gst-spidar/novint-falcon.bin";
+}
+
+std::vector<uint8_t> read_firmware(const std::string& name, LinkFault answer) {
+  const std::string path = firmware_path();
+  std::string text;
+  try {
+    text = read_regular_file(path, size_t{1} << 20);
+  } catch (const std::runtime_error& error) {
+    throw DeviceError(name + ": has not got its firmware (" + to_string(answer) + "). " + path +
+                          ": " + error.what() +
+                          "; SPIDAR_FALCON_FIRMWARE names the file, which is "
+                          "firmware/nvent_firmware.bin in the sources of libnifalcon",
+                      DeviceErrorCode::kSettings);
+  }
+  const std::vector<uint8_t> firmware(text.begin(), text.end());
+  if (firmware.empty() || firmware.size() > kMaxFirmware) {
+    throw DeviceError(name + ": " + path + " has " + std::to_string(firmware.size()) +
+                          " bytes and is no firmware of a Falcon, which has some 8 kB",
+                      DeviceErrorCode::kSettings);
+  }
+  return firmware;
+}
+
+}  // namespace
+
+template <typename Requests>
+LinkFault Falcon::set_line(const Requests& requests) noexcept {
+  for (const VendorRequest& request : requests) {
+    const LinkFault fault = transport_->control(request, soon_ns());
+    if (fault != LinkFault::kNone) return fault;
+  }
+  return LinkFault::kNone;
+}
+
+/// Sends the bytes and waits until the answer is full. Packets from the chip begin with its status
+/// and contain any part of an answer, or nothing: it sends its status also while the device is
+/// silent, which the transport ends at the deadline.
+LinkFault Falcon::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
+  if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
+  std::array<uint8_t, ftdi::kPacketSize> in{};
+  for (size_t filled = 0, sent = 0; filled < answer.size; sent = 1) {
+    const Transfer transfer = sent ? transport_->exchange({}, in, deadline_ns)
+                                   : transport_->exchange({bytes}, in, deadline_ns);
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) {
+      return transfer.fault;
+    }
+    if (transfer.received < ftdi::kStatusSize) return LinkFault::kShort;
+    const size_t came = transfer.received - ftdi::kStatusSize;
+    if (came > answer.size - filled) return LinkFault::kBabble;
+    std::copy_n(in.begin() + ftdi::kStatusSize, came, answer.data + filled);
+    filled += came;
+  }
+  stale_ = false;
+  return LinkFault::kNone;
+}
+
+LinkFault Falcon::ask(const falcon::Command& command, int64_t deadline_ns) noexcept {
+  falcon::encode_command(command, out_);
+  falcon::Packet answer{};
+  const LinkFault fault = say(out_, answer, deadline_ns);
+  if (fault != LinkFault::kNone) return fault;
+  if (falcon::decode_reading(answer, seen_)) return LinkFault::kNone;
+  stale_ = true;
+  return LinkFault::kWrongReply;
+}
+
+/// Whether the firmware answers.
+LinkFault Falcon::start() noexcept {
+  const LinkFault fault = set_line(falcon::kRunLine);
+  if (fault != LinkFault::kNone) return fault;
+  return open_exchange([this](int64_t deadline_ns) { return ask({}, deadline_ns); }, *transport_);
+}
+
+LinkFault Falcon::greet_loader() noexcept {
+  LinkFault fault = set_line(falcon::kHelloLine);
+  std::array<uint8_t, falcon::kHelloAnswer.size()> answer{};
+  for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
+    const LinkFault said = say(falcon::kHello, answer, soon_ns());
+    if (said == LinkFault::kGone) return said;
+    // With a zero in front, its end does not fit.
+    const size_t zero = answer[0] == 0 ? 1 : 0;
+    if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
+      return set_line(falcon::kLoadLine);
+    }
+    if (i + 1 == kHellos) fault = said == LinkFault::kNone ? LinkFault::kWrongReply : said;
+  }
+  return fault;
+}
+
+/// Every piece is echoed, which is how errors on the line are noticed.
+LinkFault Falcon::load(const std::vector<uint8_t>& firmware) noexcept {
+  LinkFault fault = greet_loader();
+  std::array<uint8_t, falcon::kPieceSize> echo{};
+  const auto send = [&](ByteView piece) {
+    if (fault != LinkFault::kNone) return;
+    fault = say(piece, {echo.data(), piece.size}, soon_ns());
+    if (fault == LinkFault::kNone &&
+        !std::equal(piece.data, piece.data + piece.size, echo.begin())) {
+      fault = LinkFault::kWrongEcho;
+    }
+  };
+  send(falcon::kLoad);
+  for (size_t at = 0; at < firmware.size(); at += falcon::kPieceSize) {
+    send({firmware.data() + at, std::min(falcon::kPieceSize, firmware.size() - at)});
+  }
+  return fault;
+}
+
+void Falcon::open() {
+  transport_->open();
+  LinkFault fault = start();
+  if (fault == LinkFault::kTimeout || fault == LinkFault::kWrongReply) {
+    fault = load(read_firmware(name_, fault));
+    if (fault == LinkFault::kNone) fault = start();
+  }
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
+  update();
+}
+
+/// From the counts, if they are counted from the marks.
+void Falcon::update() noexcept {
+  position_.reset();
+  if (!seen_.all_homed()) return;
+  const Eigen::Vector3d angles_rad(falcon::angle_rad(seen_.count[0]),
+                                   falcon::angle_rad(seen_.count[1]),
+                                   falcon::angle_rad(seen_.count[2]));
+  const auto position_m = falcon::grip_position(angles_rad);
+  const auto jacobian = position_m ? falcon::jacobian(angles_rad, *position_m) : std::nullopt;
+  if (jacobian) position_ = {*position_m, *jacobian};
+}
+
+/// Shortened together, where one motor cannot give its part, so that the direction remains.
+std::array<int, 3> Falcon::digits_for(const Eigen::Vector3d& force_N) const noexcept {
+  std::array<int, 3> digits{};
+  if (!position_ || !force_N.allFinite()) return digits;
+  Eigen::Vector3d wanted = falcon::kDigitsPerNm * (position_->jacobian.transpose() * force_N);
+  const double most = wanted.cwiseAbs().maxCoeff();
+  if (most > falcon::kMostDigit) wanted *= falcon::kMostDigit / most;
+  for (size_t i = 0; i < digits.size(); ++i) {
+    digits[i] = static_cast<int>(std::lround(wanted[static_cast<Eigen::Index>(i)]));
+  }
+  return digits;
+}
+
+LinkFault Falcon::cycle(const ForceOutput& output, ForceReading& reading,
+                        int64_t deadline_ns) noexcept {
+  falcon::Command command;
+  command.digit = digits_for(output.force_N);
+  command.light = seen_.all_homed() ? falcon::Light::kGreen : falcon::Light::kRed;
+  const LinkFault fault = ask(command, deadline_ns);
+  if (fault != LinkFault::kNone) return fault;
+  update();
+  reading.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
+  if (position_) reading.position_m = position_->position_m;
+  reading.pose_fault = seen_.all_homed() ? PoseFault::kNoFit : PoseFault::kNotHomed;
+  reading.buttons = seen_.buttons;
+  return LinkFault::kNone;
+}
+
+void Falcon::recover() noexcept {
+  OnTransport::recover();
+  stale_ = true;
+}
+
+std::vector<LastWill> Falcon::last_wills() const {
+  falcon::Packet rest;
+  falcon::encode_command({}, rest);
+  return wills(*transport_, {rest});
+}
+
+std::string Falcon::description() const {
+  return transport_->where() + "Novint Falcon" +
+         (seen_.all_homed() ? "" : "; pull its grip all the way out, then push it all the way in");
+}
+
+}  // namespace spidar::boards

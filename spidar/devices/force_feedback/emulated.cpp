@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/devices/force_feedback/emulated.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace spidar::emulated {
+
+ff::Description ForceFeedback::stick() noexcept {
+  ff::Description description;
+  description.constant = description.rumble = description.gain = description.autocentre = 1;
+  description.effects = 16;
+  description.axes = 2;
+  constexpr char kName[] = "emulated stick";
+  std::copy(std::begin(kName), std::end(kName), description.name.begin());
+  return description;
+}
+
+template <typename Structure>
+void ForceFeedback::answer(const Structure& structure) noexcept {
+  static_assert(sizeof structure <= sizeof(ff::Description));
+  std::memcpy(reply_.data(), &structure, sizeof structure);
+  due_ = sizeof structure;
+}
+
+void ForceFeedback::upload(const ff::Effect& effect) noexcept {
+  const size_t room = std::min<size_t>(slots_.size(), description_.effects);
+  size_t at = static_cast<size_t>(effect.number);
+  if (effect.number == ff::kNewEffect) {
+    at = 0;
+    while (at < room && slots_[at].used) ++at;
+  }
+  if (at >= room) return;
+  slots_[at].effect = effect;
+  slots_[at].used = true;
+  answer(static_cast<int16_t>(at));
+  put_out();
+}
+
+void ForceFeedback::receive(ByteView bytes) noexcept {
+  if (bytes.size == ff::kDescribeSize) {
+    answer(description_);
+  } else if (bytes.size == ff::kPositionSize) {
+    const std::array<int32_t, kMaxStrings> counts = motors_->counts();
+    answer(ff::Position{static_cast<int16_t>(counts[0]), static_cast<int16_t>(counts[1])});
+  } else if (const auto effect = ff::decode_effect(bytes)) {
+    upload(*effect);
+  } else if (const auto event = ff::decode_event(bytes)) {
+    if (event->code >= slots_.size()) return;  // gain or autocentre: no effect
+    slots_[event->code].plays = event->value > 0;
+    put_out();
+  }
+}
+
+void ForceFeedback::put_out() noexcept {
+  double right = 0, up = 0, rumble = 0;
+  for (const Slot& slot : slots_) {
+    if (!slot.plays) continue;
+    right += slot.effect.right;
+    up += slot.effect.up;
+    rumble += slot.effect.rumble;
+  }
+  motors_->put_out({static_cast<int>(std::lround(right * ff::kFullLevel)),
+                    static_cast<int>(std::lround(up * ff::kFullLevel)),
+                    static_cast<int>(std::lround(rumble * ff::kFullStrength))});
+}
+
+size_t ForceFeedback::reply(MutableBytes bytes) noexcept {
+  const size_t length = std::min(bytes.size, due_);
+  std::copy_n(reply_.begin(), length, bytes.data);
+  due_ = 0;
+  return length;
+}
+
+}  // namespace spidar::emulated

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// What fast exchanges know of a device whose updates are slow: its position, and whether it still
+/// follows.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include <Eigen/Core>
+
+#include "spidar/device.h"
+#include "spidar/devices/force_feedback/packets.h"
+#include "spidar/realtime/seqlock.h"
+
+namespace spidar::boards {
+
+/// A driver that needs 50 ms for an update gives a position every 55 ms, and a hand moves a stick
+/// by 20 mm in that time. As a step, this would look to a damper like a very fast hand. The
+/// position therefore moves to a new reading at a constant speed within the time that the last
+/// update took. This costs no delay: a level is set in the same update that brings the next
+/// reading, when the position has just arrived.
+///
+/// update() is called by the thread that makes the updates, everything else by the one that
+/// exchanges.
+class StickPosition {
+ public:
+  /// The longest time in which the position moves to a new reading.
+  static constexpr int64_t kLongest_ns = 100'000'000;
+
+  /// Before update() is called for the first time.
+  void start(const ff::Position& position, int64_t now_ns) noexcept {
+    seen_ns_ = shown_ns_ = now_ns;
+    aim_ = {position, now_ns};
+    newest_.store(aim_);
+    shown_ = fraction_of(position);
+  }
+
+  void update(const ff::Position& position, int64_t now_ns) noexcept {
+    newest_.store({position, now_ns + std::min(now_ns - seen_ns_, kLongest_ns)});
+    seen_ns_ = now_ns;
+  }
+
+  /// Moves to where the position is at this time.
+  void advance(int64_t now_ns) noexcept {
+    newest_.try_load(aim_);  // keeps the previous one while a new one is being written
+    const Eigen::Vector2d to = fraction_of(aim_.position);
+    const auto passed_ns = static_cast<double>(now_ns - shown_ns_);
+    const auto left_ns = static_cast<double>(aim_.arrival_ns - shown_ns_);
+    shown_ =
+        passed_ns >= left_ns ? to : Eigen::Vector2d(shown_ + passed_ns / left_ns * (to - shown_));
+    shown_ns_ = now_ns;
+  }
+
+  /// Right and up, −1 … 1, as of the last advance().
+  const Eigen::Vector2d& fraction() const noexcept { return shown_; }
+  /// See ff::Position, as of the last advance().
+  uint32_t buttons() const noexcept { return aim_.position.buttons; }
+
+ private:
+  struct Aim {
+    ff::Position position;
+    int64_t arrival_ns = 0;
+  };
+
+  static Eigen::Vector2d fraction_of(const ff::Position& position) noexcept {
+    return Eigen::Vector2d(position.right, position.up) / ff::Position::kFull;
+  }
+
+  int64_t seen_ns_ = 0;
+  Seqlock<Aim> newest_;
+  Aim aim_;
+  Eigen::Vector2d shown_ = Eigen::Vector2d::Zero();
+  int64_t shown_ns_ = 0;
+};
+
+/// Exchanges are faster than updates. A failed update is reported to one exchange only, because the
+/// haptic loop gives up a device after 20 faults in a row, and a single failed update of a slow
+/// driver would last that long. Every exchange gets a fault when nothing shows that the device
+/// still follows: kFailures updates have failed in a row, or none has ended for kPatience_ns,
+/// because the driver does not return. The device holds its last force meanwhile, so the loop must
+/// not take it for a healthy one.
+///
+/// finish() is called by the thread that makes the updates, everything else by the one that
+/// exchanges.
+class UpdateWatch {
+ public:
+  /// Failures in a row before all exchanges fail, as for a board on USB (see StringLink): one
+  /// fault may concern only one packet.
+  static constexpr uint32_t kFailures = 3;
+  /// Twice the time that the slowest drivers need, about 50 ms, and as long as other exchanges of a
+  /// force-feedback device may last.
+  static constexpr int64_t kPatience_ns = 100'000'000;
+
+  /// Before finish() is called for the first time.
+  void start(int64_t now_ns) noexcept {
+    updates_ = last_ = {LinkFault::kNone, 0, 0, now_ns};
+    newest_.store(updates_);
+    reported_ = 0;
+  }
+
+  void finish(LinkFault fault, int64_t now_ns) noexcept {
+    updates_.finished_ns = now_ns;
+    ++updates_.in_a_row;
+    if (fault == LinkFault::kNone) {
+      updates_.in_a_row = 0;
+    } else {
+      updates_.fault = fault;
+      ++updates_.failed;
+    }
+    newest_.store(updates_);
+  }
+
+  /// The result that one exchange is to return.
+  LinkFault report(int64_t now_ns) noexcept {
+    newest_.try_load(last_);  // keeps the previous one while a new one is being written
+    const bool is_new = last_.failed != reported_;
+    reported_ = last_.failed;
+    if (now_ns - last_.finished_ns > kPatience_ns) return LinkFault::kTimeout;
+    return is_new || last_.in_a_row >= kFailures ? last_.fault : LinkFault::kNone;
+  }
+
+ private:
+  struct Updates {
+    LinkFault fault = LinkFault::kNone;  ///< of the last one that failed
+    uint32_t failed = 0;
+    uint32_t in_a_row = 0;  ///< failed since the last one that succeeded
+    int64_t finished_ns = 0;
+  };
+
+  Updates updates_;
+  Seqlock<Updates> newest_;
+  Updates last_;
+  uint32_t reported_ = 0;
+};
+
+}  // namespace spidar::boards

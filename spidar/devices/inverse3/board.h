@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The Haply Inverse3 behind the maker's service: three axes of force and position.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spidar/devices/inverse3/packets.h"
+#include "spidar/link/board.h"
+#include "spidar/link/board_parts.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar::boards {
+
+/// One force and one state in each cycle: the service answers every message. A force is sent only
+/// when the previous one has been answered, so that none can arrive late.
+class Inverse3 final : public OnTransport<ForceBoard> {
+ public:
+  /// `id` is the device's number in the service ("049D"); empty: the first one.
+  Inverse3(std::string name, std::string id, std::unique_ptr<Transport> transport)
+      : OnTransport(std::move(name), std::move(transport)),
+        id_(std::move(id)),
+        answer_(inverse3::kStateSize) {}
+
+  void open() override {
+    transport_->open();
+    const LinkFault fault = open_exchange(
+        [&](int64_t deadline_ns) {
+          return ask(inverse3::encode_query(text_), device_, deadline_ns);
+        },
+        *transport_);
+    if (fault == LinkFault::kGone) {
+      refuse("Haply's service knows no Inverse3" + (wanted().empty() ? "" : " " + wanted()) +
+                 ": plug it in, and wait until its light is steady",
+             DeviceErrorCode::kAbsent);
+    }
+    if (fault != LinkFault::kNone) {
+      refuse(std::string("Haply's service does not answer as it should: ") + to_string(fault) +
+             "; version 3.1 or later is needed");
+    }
+    if (!device_.powered) {
+      refuse("the Inverse3 " + device_.id + " has no power: connect its supply");
+    }
+    if (!device_.calibrated) {
+      refuse("the Inverse3 " + device_.id +
+             " is not calibrated: put its handle into the inkwell until its light is steady");
+    }
+    opened_ = true;
+    // Without the preset, positions would be elsewhere.
+    const LinkFault start = open_exchange(
+        [&](int64_t deadline_ns) {
+          return ask(inverse3::encode_start(device_, text_), now_, deadline_ns);
+        },
+        *transport_);
+    if (start != LinkFault::kNone) {
+      refuse(std::string("Haply's service does not answer the beginning of a session: ") +
+             to_string(start) + "; restart it");
+    }
+  }
+  LinkFault cycle(const ForceOutput& output, ForceReading& reading,
+                  int64_t deadline_ns) noexcept override {
+    const LinkFault fault =
+        ask(inverse3::encode_force(device_, output.force_N, text_), now_, deadline_ns);
+    if (fault != LinkFault::kNone) return fault;
+    // The origin of its positions is elsewhere.
+    if (now_.version != device_.version) return LinkFault::kWrongReply;
+    if (!now_.powered || !now_.calibrated) return LinkFault::kRefused;
+    reading.position_m = now_.position_m;
+    reading.buttons = now_.buttons;
+    return LinkFault::kNone;
+  }
+  void close() noexcept override {
+    if (opened_) {
+      ask(inverse3::encode_force(device_, Eigen::Vector3d::Zero(), text_), now_, soon_ns());
+    }
+    opened_ = false;
+    OnTransport::close();
+  }
+  std::vector<LastWill> last_wills() const override {
+    std::array<uint8_t, inverse3::kCommandSize> zero{};
+    std::array<uint8_t, LastWill::kMaxLength> frame{};
+    const size_t length = inverse3::encode_force(device_, Eigen::Vector3d::Zero(), zero);
+    const size_t framed = inverse3::encode_frame({zero.data(), length}, frame);
+    return wills(*transport_, {{frame.data(), framed}});
+  }
+  std::string description() const override {
+    return "Haply Inverse3 " + device_.id + ", service " +
+           (device_.version == inverse3::Version::k35 ? "3.5" : "3.1");
+  }
+  GripAbilities abilities() const noexcept override { return kAbilities; }
+
+ private:
+  /// Half of the side of the square in the circle of kReach_m.
+  static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
+  static constexpr GripAbilities kAbilities{{true, true, true},
+                                            false,
+                                            true,
+                                            {true, true, true},
+                                            inverse3::kLargestForce_N,
+                                            1000,
+                                            inverse3::kButtons,
+                                            {kRoom_m, kRoom_m, kRoom_m}};
+
+  /// Sends the first bytes of text_, and reads the state of the device.
+  LinkFault ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept {
+    const Transfer transfer = transport_->exchange({{text_.data(), length}},
+                                                   {answer_.data(), answer_.size()}, deadline_ns);
+    // An answer is as long as it is.
+    if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) {
+      return transfer.fault;
+    }
+    const ByteView text(answer_.data(), transfer.received);
+    switch (inverse3::decode_state(text, wanted(), state)) {
+      case inverse3::Answer::kState:
+        return LinkFault::kNone;
+      case inverse3::Answer::kAbsent:
+        return LinkFault::kGone;
+      case inverse3::Answer::kBroken:
+        break;
+    }
+    return text.u8(text.size - 1) == '}' ? LinkFault::kWrongReply : LinkFault::kShort;
+  }
+  /// The device to look for. After a loss it is the same device, because another hand may hold
+  /// another one.
+  const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
+  [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
+                           SourceLocation location = SourceLocation::here()) const {
+    throw DeviceError(name_ + ": " + why, code, location);
+  }
+
+  const std::string id_;
+  inverse3::State device_;  ///< as it was when opened
+  inverse3::State now_;
+  bool opened_ = false;
+  std::array<uint8_t, inverse3::kCommandSize> text_{};
+  std::vector<uint8_t> answer_;
+};
+
+}  // namespace spidar::boards

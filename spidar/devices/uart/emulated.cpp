@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/devices/uart/emulated.h"
+
+#include <algorithm>
+
+namespace spidar::emulated {
+
+void Uart::receive(ByteView bytes) noexcept {
+  for (size_t i = 0; i < bytes.size; ++i) {
+    if (!station_) {
+      begin(bytes.u8(i));
+    } else {
+      command_[taken_++] = bytes.u8(i);
+    }
+    if (station_ && taken_ == length_) end_of_command();
+  }
+}
+
+/// A byte between commands: a zero gives time for a reply, anything else is a header.
+void Uart::begin(uint8_t header) noexcept {
+  if (header == 0) return;
+  first_ = 0;
+  for (const Station& station : stations_) {
+    const auto lengths = uart_motor::command_lengths(station.info.motors, station.info.forces);
+    const size_t command = header >> 3;
+    if (station.id == (header & 7) && command < lengths.size()) {
+      station_ = &station;
+      length_ = lengths[command];
+      command_[0] = header;
+      taken_ = 1;
+      return;
+    }
+    first_ += station.info.motors;
+  }
+}
+
+void Uart::put_reply(ByteView reply) noexcept {
+  const size_t length = std::min(reply.size, reply_.size() - due_);
+  std::copy_n(reply.data, length, reply_.begin() + static_cast<long>(due_));
+  due_ += length;
+}
+
+void Uart::end_of_command() noexcept {
+  const Station& station = *station_;
+  station_ = nullptr;
+  const ByteView command(command_.data(), taken_);
+  std::array<int, uart_motor::kMaxMotors> digits{};
+  if (command.u8(0) == uart_motor::header(station.id, uart_motor::Command::kBoardInfo)) {
+    std::array<uint8_t, uart_motor::kInfoLength> info{};
+    uart_motor::encode_info(station.info, station.id, info);
+    put_reply(info);
+  } else if (uart_motor::decode_current(command, station.id, station.info, digits)) {
+    const size_t motors = std::min<size_t>(station.info.motors, kMaxStrings - first_);
+    std::copy_n(digits.begin(), motors, digits_.begin() + static_cast<long>(first_));
+    motors_->put_out(digits_);
+    const std::array<int32_t, kMaxStrings> counts = motors_->counts();
+    uart_motor::Reading reading;
+    for (size_t i = 0; i < motors; ++i) {
+      reading.position[i] = static_cast<uint16_t>(counts[first_ + i]);
+    }
+    std::array<uint8_t, uart_motor::kMaxReplyLength> reply{};
+    const size_t length = uart_motor::encode_reading(reading, station.id, station.info, reply);
+    put_reply({reply.data(), length});
+  }
+}
+
+size_t Uart::reply(MutableBytes bytes) noexcept {
+  const size_t length = std::min(bytes.size, due_);
+  std::copy_n(reply_.begin(), length, bytes.data);
+  std::copy(reply_.begin() + static_cast<long>(length), reply_.begin() + static_cast<long>(due_),
+            reply_.begin());
+  due_ -= length;
+  return length;
+}
+
+}  // namespace spidar::emulated

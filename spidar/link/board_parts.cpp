@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/link/board_parts.h"
+
+#include "spidar/link/encoder_counts.h"
+#include "spidar/text.h"
+
+namespace spidar::boards {
+namespace {
+
+/// Of a hand with a grip (EncoderCounts). Faster counters count as broken.
+constexpr double kFastestHand_m_s = 10;
+constexpr double kLeast_m_per_count =
+    kFastestHand_m_s * 1e-3 / static_cast<double>(EncoderCounts::kMaxStepPer_ms);
+
+}  // namespace
+
+std::string misfit(const Profile& profile, const Traits& board) {
+  if (profile.dac_bits != board.dac_bits) {
+    return "has dac_bits = " + as_text(profile.dac_bits) + ", and the D/A of the board has " +
+           as_text(board.dac_bits) + " bits: take a profile for this board, or correct dac_bits";
+  }
+  for (size_t i = 0; i < static_cast<size_t>(profile.geometry.count); ++i) {
+    const StringDrive& drive = profile.drives[i];
+    const std::string string = " for string " + as_text(i);
+    if (drive.motor_sign < 0 && !board.negative) {
+      return "wants negative volts" + string +
+             " (motor_sign), and the board puts out positive ones only: take a profile for this "
+             "board, or correct motor_sign";
+    }
+    const double needed_V = drive.max_tension_N / drive.newtons_per_volt;
+    if (board.max_V > 0 && !(needed_V <= board.max_V)) {
+      return "wants " + as_text(needed_V) + " V" + string +
+             " (max_tension_N), and the board puts out " + as_text(board.max_V) +
+             " V at most: lower max_tension_N, or correct newtons_per_volt";
+    }
+    if (!(drive.metres_per_count >= kLeast_m_per_count)) {
+      return "has metres_per_count = " + as_text(drive.metres_per_count) + string +
+             ", and the driver follows the board's counters for a hand at " +
+             as_text(kFastestHand_m_s) + " m/s from " + as_text(kLeast_m_per_count) +
+             " m on: correct metres_per_count";
+    }
+  }
+  return {};
+}
+
+void require_fitting(const std::string& device, const Profile& profile, const Traits& board) {
+  const std::string why = misfit(profile, board);
+  if (!why.empty()) {
+    throw DeviceError(device + ": profile \"" + profile.name + "\" " + why,
+                      DeviceErrorCode::kSettings);
+  }
+}
+
+}  // namespace spidar::boards

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Common parts of boards: opening, wills, conversion from volts to digits of a D/A converter.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spidar/device.h"
+#include "spidar/guardian/guardian.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/realtime/monotonic.h"
+#include "spidar/transports/bytes.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar::boards {
+
+/// The common part of all boards with a single transport.
+template <typename BoardType>
+class OnTransport : public BoardType {
+ public:
+  OnTransport(std::string name, std::unique_ptr<Transport> transport)
+      : BoardType(std::move(name)), transport_(std::move(transport)) {}
+
+  void recover() noexcept override { transport_->recover(); }
+  void close() noexcept override { transport_->close(); }
+
+ protected:
+  using BoardType::name_;
+  const std::unique_ptr<Transport> transport_;
+};
+
+/// Returns the transport's will with these packets; empty if no other process can reach the board.
+inline std::vector<LastWill> wills(const Transport& transport,
+                                   std::initializer_list<ByteView> packets) {
+  std::optional<LastWill> will = transport.last_will();
+  if (!will) return {};
+  for (const ByteView packet : packets) {
+    const size_t length = std::min(packet.size, LastWill::kMaxLength);
+    std::copy_n(packet.data, length, will->packet[will->packets].begin());
+    will->length[will->packets++] = static_cast<uint32_t>(length);
+  }
+  return {*will};
+}
+
+/// Deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: 0.1 s from now.
+inline int64_t soon_ns() noexcept {
+  return monotonic_now_ns() + kSecond_ns / 10;
+}
+
+/// "usb:1-2: does not answer as it should: stall; switch it off and on, and check cable and supply"
+inline DeviceError no_answer(const std::string& board, LinkFault fault,
+                             SourceLocation location = SourceLocation::here()) {
+  return DeviceError(
+      board + ": does not answer as it should: " + to_string(fault) +
+          "; switch it off and on, and check cable and supply",
+      fault == LinkFault::kGone ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed, location);
+}
+
+/// Tries the first exchange up to three times, because it may first receive data that an earlier
+/// program left unread.
+template <typename Exchange>
+LinkFault open_exchange(const Exchange& exchange, Transport& transport) {
+  LinkFault fault = LinkFault::kNone;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    fault = exchange(soon_ns());
+    if (fault == LinkFault::kNone || fault == LinkFault::kGone) break;
+    transport.recover();
+  }
+  return fault;
+}
+
+/// A D/A converter whose digit zero is zero volts.
+struct DacScale {
+  double digits_per_V = 1;
+  int min_digit = 0;
+  int max_digit = 0;
+
+  /// A voltage that is not a number counts as zero.
+  int digit(double volt) const noexcept {
+    const double digits = volt * digits_per_V;
+    if (!std::isfinite(digits)) return 0;
+    return static_cast<int>(std::lround(
+        std::clamp(digits, static_cast<double>(min_digit), static_cast<double>(max_digit))));
+  }
+  double volt(int digits) const noexcept { return digits / digits_per_V; }
+};
+
+/// The properties that a protocol defines for every board of its kind.
+struct Traits {
+  int dac_bits = 12;
+  double max_V = 0;      ///< largest voltage of the D/A; 0: not published, the profile states it
+  bool negative = true;  ///< whether it puts out negative volts
+};
+
+/// Why the profile cannot be for this board, as the end of a sentence that names the field: "has
+/// dac_bits = 16, …". Empty if it fits.
+std::string misfit(const Profile& profile, const Traits& board);
+
+/// Throws DeviceError with misfit().
+void require_fitting(const std::string& device, const Profile& profile, const Traits& board);
+
+}  // namespace spidar::boards

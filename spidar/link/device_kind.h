@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The description of a kind of device, from which its names, lists, errors, simulation and tests
+/// are made.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spidar/link/board.h"
+#include "spidar/link/board_parts.h"
+#include "spidar/link/emulated_transport.h"
+#include "spidar/profiles/profile.h"
+#include "spidar/transports/usb_transport.h"
+
+namespace spidar {
+
+/// A device that make_grip() can open.
+struct DeviceInfo {
+  std::string device;                 ///< for make_grip(): "usb:1-2", "sim"
+  std::string name;                   ///< "CyVerse USB 2.0 SH4"
+  std::string path;                   ///< on the bus: "1-2"; empty for simulated devices
+  std::string serial;                 ///< empty when it has none
+  std::string usb_id;                 ///< "0cec:0205"; empty when not on USB
+  const char* evidence = "emulated";  ///< DeviceKind::evidence
+  std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
+  bool accessible = true;  ///< this process may open it
+  /// The profile with which it is driven if none is named: that of a simulation, that of a device
+  /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
+  /// no force until one is named (see profile_choice.h).
+  std::string profile;
+  std::string memory_error;  ///< why confirmed profiles cannot be read; may be empty
+  /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
+  /// no strings.
+  std::string profile_board;
+  bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
+  bool directional = true;  ///< otherwise only the strength of the force is rendered
+};
+
+/// DeviceInfo::note of a device that 70-spidar.rules would make accessible.
+constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
+
+struct DeviceKind {
+  const char* device = "";  ///< what its name for make_grip() begins with: "usb"
+  const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
+  /// Profile::board of profiles for it; empty for one without strings.
+  const char* profile_board = "";
+  UsbId usb;  ///< vendor 0 for one that is not on USB
+  /// Makes the board at the other end of a transport. Throws DeviceError when it cannot drive the
+  /// profile.
+  boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
+                             std::unique_ptr<Transport> transport) = nullptr;
+  const char* board = "";  ///< "sh4", for sim:sh4; that of the real device if there is one only
+  const char* names = "";  ///< how a real one may be named, separated by ", "
+  /// The profile with which its simulation is driven if none is named, and the real device, too, if
+  /// it has no strings.
+  const char* profile = kDefaultProfile;
+  /// What device=auto calls a device without strings that it has chosen: "a Novint Falcon". Empty:
+  /// such a device is used only if it is named.
+  const char* chosen_as = "";
+  /// How far the driver has been tested: "emulated", on a board that follows the published
+  /// description, or "inferred", if parts of that are inferred, which an emulation cannot confirm.
+  const char* evidence = "emulated";
+  const char* note = "";  ///< what is inferred
+  boards::Traits traits;  ///< of a board with strings; profiles have to fit them
+  /// The emulation of the board, connected to these motors; null when there is none.
+  std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
+  /// With strings: the D/A converter of the board, through which the simulation moves its motors.
+  boards::DacScale (*dac)(const Profile& profile) = nullptr;
+  /// Without strings: the hand of the simulation; null when nothing feels what the board puts out.
+  std::shared_ptr<emulated::Motors> (*hand)() = nullptr;
+
+  // Not for boards on USB.
+
+  /// Makes the real board with this whole name; `rest` is what follows its colon. Opens nothing.
+  /// Throws DeviceError when `rest` is wrong.
+  boards::AnyBoard (*make)(const std::string& name, const std::string& rest,
+                           const Profile& profile) = nullptr;
+  /// Lists what is plugged in, as far as the system tells: names, and what the kind does not say.
+  std::vector<DeviceInfo> (*list)() = nullptr;
+
+  bool has_strings() const noexcept { return *profile_board != '\0'; }
+  /// Whether the name has to state which one is meant.
+  bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
+};
+
+// What each file adds to devices().
+
+std::vector<DeviceKind> cyverse_kinds();
+std::vector<DeviceKind> falcon_kinds();
+std::vector<DeviceKind> force_feedback_kinds();
+std::vector<DeviceKind> inverse3_kinds();
+std::vector<DeviceKind> mouse_kinds();
+std::vector<DeviceKind> sound_kinds();
+std::vector<DeviceKind> uart_kinds();
+/// Those on USB.
+std::vector<DeviceKind> usb_kinds();
+
+}  // namespace spidar

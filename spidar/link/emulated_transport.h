@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Emulated boards, which answer as described for the real ones, and the transport to
+/// one.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+
+#include "core/grip/string_geometry.h"
+#include "spidar/device.h"
+#include "spidar/transports/bytes.h"
+#include "spidar/transports/ftdi.h"
+#include "spidar/transports/transport.h"
+
+namespace spidar::emulated {
+
+/// The device that is connected to an emulated board. This one has neither motors nor encoders:
+/// what it gets has no effect.
+class Motors {
+ public:
+  virtual ~Motors() = default;
+  /// The board has set the D/A to these digits.
+  virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
+  /// Counts as the host should receive them.
+  virtual std::array<int32_t, kMaxStrings> counts() noexcept { return {}; }
+  /// 16 inputs; bits 4–7 are the rotary ID switch.
+  virtual uint16_t inputs() noexcept { return 0; }
+};
+
+/// What stays in a device while programs come and go. Starts as after plugging in.
+struct Memory {
+  std::atomic<bool> loaded{false};  ///< with its firmware
+  std::atomic<uint16_t> baud{0};    ///< divisor
+};
+
+/// A board without its wire, and the motors to which it is connected. Not thread-safe.
+class Board {
+ public:
+  explicit Board(std::shared_ptr<Motors> motors) : motors_(std::move(motors)) {}
+  virtual ~Board() = default;
+  /// Takes bytes from the host: one packet, or any piece of a stream.
+  virtual void receive(ByteView bytes) noexcept = 0;
+  /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
+  /// too small.
+  virtual size_t reply(MutableBytes bytes) noexcept = 0;
+  /// Starts with the given memory and keeps its state there; the memory must outlive the board.
+  /// Without it, the board is one that was used before.
+  virtual void remember(Memory&) noexcept {}
+  /// Takes a vendor request; returns false if there is no such request.
+  virtual bool control(const VendorRequest&) noexcept { return false; }
+
+ protected:
+  std::shared_ptr<Motors> motors_;
+};
+
+/// Writes `packet` if it is due, and returns its length; 0 if it is not, or `bytes` is too small.
+inline size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
+  if (!due || bytes.size < packet.size) return 0;
+  due = false;
+  std::copy_n(packet.data, packet.size, bytes.data);
+  return packet.size;
+}
+
+/// No time passes: a reply is available at once or not at all.
+class Transport final : public spidar::Transport {
+ public:
+  /// `fault` is the result of every exchange. With kStall and kGone packets do not arrive; kBabble,
+  /// kShort and kWrongReply spoil the reply.
+  explicit Transport(std::unique_ptr<Board> board,
+                     std::shared_ptr<const std::atomic<LinkFault>> fault =
+                         std::make_shared<std::atomic<LinkFault>>(LinkFault::kNone))
+      : board_(std::move(board)), fault_(std::move(fault)) {}
+
+  void open() override {
+    if (*fault_ == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
+    // As the interface of a real one is claimed until it is closed.
+    if (open_) throw DeviceError("emulated board: in use");
+    open_ = true;
+  }
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t) noexcept override {
+    const LinkFault fault = fault_->load(std::memory_order_relaxed);
+    // A device that was pulled out must be opened again.
+    if (fault == LinkFault::kGone) open_ = false;
+    if (!open_) return {LinkFault::kGone, 0};
+    if (fault == LinkFault::kStall) return {fault, 0};
+    for (const ByteView packet : packets) board_->receive(packet);
+    if (reply.size == 0) return {};
+    const size_t received = board_->reply(reply);
+    switch (fault) {
+      case LinkFault::kNone:
+        break;
+      case LinkFault::kShort:
+        return {fault, received / 2};
+      case LinkFault::kWrongReply:
+        for (size_t i = 0; i < received; ++i) reply.data[i] ^= 0xA5;
+        return {LinkFault::kNone, received};
+      default:
+        return {fault, 0};
+    }
+    if (received == 0) return {LinkFault::kTimeout, 0};
+    return {received < reply.size ? LinkFault::kShort : LinkFault::kNone, received};
+  }
+  LinkFault control(const VendorRequest& request, int64_t) noexcept override {
+    const LinkFault fault = fault_->load(std::memory_order_relaxed);
+    if (fault == LinkFault::kGone) open_ = false;
+    if (!open_) return LinkFault::kGone;
+    if (fault == LinkFault::kStall || fault == LinkFault::kTimeout) return fault;
+    return board_->control(request) ? LinkFault::kNone : LinkFault::kStall;
+  }
+  void recover() noexcept override {
+    std::array<uint8_t, 512> old{};
+    while (board_->reply(old) > 0) {
+    }
+  }
+  std::optional<LastWill> last_will() const override { return std::nullopt; }
+  void close() noexcept override { open_ = false; }
+
+ private:
+  const std::unique_ptr<Board> board_;
+  const std::shared_ptr<const std::atomic<LinkFault>> fault_;
+  bool open_ = false;
+};
+
+}  // namespace spidar::emulated

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The common part of all open boards: the thread of their link, their guardians, and the ramp to
+/// zero.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <semaphore.h>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "spidar/device.h"
+#include "spidar/guardian/guardian.h"
+#include "spidar/link/board.h"
+#include "spidar/realtime/latency_histogram.h"
+#include "spidar/realtime/spsc_ring.h"
+
+namespace spidar::boards {
+
+/// A separate thread makes the exchanges, because libusb and the kernel may take locks, allocate
+/// memory and need any amount of time. The haptic thread only waits for them, up to kReplyWait_ns.
+/// A later reply is used in the next tick. Outputs that arrive during an exchange are queued, so
+/// that the link never idles.
+///
+/// Motors pull only as long as every connection has its guardian. Without one, the motors are set
+/// to zero at once, and the device is lost until it is reopened with a new guardian.
+///
+/// For `Output` there are the functions pulls(output), which tells whether it differs from rest,
+/// and scaled(output, fraction). `BoardType` derives from BoardOf<Output, Reading>.
+template <typename BoardType, typename Output, typename Reading>
+class LinkThread final : public DeviceOf<Output, Reading> {
+ public:
+  /// The longest wait for a reply in a tick of 1 ms; the loop uses the rest.
+  static constexpr int64_t kReplyWait_ns = 700'000;
+  /// Time after which an exchange counts as failed.
+  static constexpr int64_t kTransfer_ns = 5'000'000;
+  /// Duration of the ramp to zero in close(), in milliseconds, if the outputs are not at zero
+  /// before.
+  static constexpr int kRamp_ms = 20;
+
+  /// Here, CountZero::kByProfile means kFirstOpen; make_grip() resolves it.
+  LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
+  /// Several boards, of which `open` opens and returns one. If it throws, it leaves none open.
+  LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
+             const Settings& settings);
+  ~LinkThread() override;
+
+  void open() override;
+  LinkFault exchange(const Output& output, Reading& reading) noexcept override;
+  /// Ramps to zero, then releases the board. Takes kRamp_ms, or longer if the board does not
+  /// answer.
+  void close() noexcept override;
+  std::string description() const override { return open_ ? board_->description() : ""; }
+  LinkHealth health() const noexcept override;
+  /// The board that was opened last; before any was opened, the first.
+  const BoardType& board() const noexcept { return *board_; }
+
+ private:
+  struct Request {
+    uint32_t number = 0;
+    Output output;
+  };
+  struct Reply {
+    uint32_t number = 0;
+    LinkFault fault = LinkFault::kNone;
+    Reading reading;
+  };
+
+  void zero_counts();
+  void count(LinkFault fault) noexcept;
+  void start();
+  void stop() noexcept;
+  void run() noexcept;
+  std::optional<Reply> ask(const Request& request) noexcept;
+  Reply answer(const Request& request) noexcept;
+  void exchange_now(const Request& request, Reply& reply) noexcept;
+  bool guarded(bool pulling) noexcept;
+  LinkFault why_unguarded() const noexcept;
+  /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
+  bool put_out_zero() noexcept;
+  bool bring_to_zero() noexcept;
+
+  const std::vector<std::unique_ptr<BoardType>> boards_;
+  const std::function<BoardType&()> open_board_;
+  BoardType* board_;  ///< the one that was opened last
+  const Settings settings_;
+  bool zeroed_ = false;  ///< the counts have been zeroed once
+  std::vector<std::unique_ptr<Guardian>> guardians_;
+  bool open_ = false;
+  Output last_;
+  uint32_t number_ = 0;
+  // Used by the thread that exchanges.
+  int errors_in_a_row_ = 0;
+  bool pulling_ = false;  ///< the output of the board may differ from zero
+  // Not kNone: a guardian failed, or zeroed the motors, which stay at zero until open().
+  LinkFault unguarded_ = LinkFault::kNone;
+
+  std::thread thread_;
+  std::atomic<bool> stop_{false};
+  SpscRing<Request, 2> requests_;
+  SpscRing<Reply, 4> replies_;
+  sem_t requested_{};
+  sem_t replied_{};
+
+  // Written by the thread that exchanges, or by whoever calls exchange(): never both at a time.
+  std::array<std::atomic<uint64_t>, kLinkFaults> faults_{};
+  std::atomic<LinkFault> last_fault_{LinkFault::kNone};
+  std::atomic<uint64_t> late_{0};
+  LatencyHistogram round_trip_;
+};
+
+using StringLink = LinkThread<Board, MotorVolts, DeviceReading>;
+using ForceLink = LinkThread<ForceBoard, ForceOutput, ForceReading>;
+
+}  // namespace spidar::boards
