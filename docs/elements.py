@@ -30,15 +30,15 @@ from gi.repository import GObject, Gst  # noqa: E402
 ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink")
 DOCS = Path(__file__).resolve().parent
 WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
-ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0 unless it is told another one, and the plugin has the version of "
-         "the project: ask with `--atleast-version=0.1`. Players ask for no version.\n")
+ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0, and the plugin has the version of the project: ask with "
+         "`--atleast-version=0.1`.\n")
 PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, "
            "`gst_preset_load_preset()`), which set motion, controller, filter and gains. GStreamer finds "
-           "them where its own data are, and in `GST_PRESET_PATH`. In a launch line, a preset replaces what the line sets, "
-           "wherever it stands; `max-force` stays as it is. `spidar-feel`, `spidartrack` and "
-           "`examples/play.sh` take `preset=film`.\n")
-CHANGES = ("A property can be changed while playing, unless it says *in READY* (only in the states NULL and READY) or *in NULL*: "
-           "then a later change is refused with a warning. *Controllable*: a `GstControlSource` can drive it.\n")
+           "them where its own data are, and in `GST_PRESET_PATH`. A preset replaces what the launch line sets, wherever it "
+           "stands, but `max-force`. `spidar-feel`, `spidartrack` and `examples/play.sh` take `preset=film`.\n")
+CHANGES = ("In brackets: default and range. A property can be changed while playing, unless it says *in READY* (only in the states "
+           "NULL and READY) or *in NULL*: then a later change is refused with a warning. *Controllable*: a `GstControlSource` can "
+           "drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
          "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
@@ -94,7 +94,7 @@ def access_text(spec):
 def property_lines(spec):
     """An item of a list, with the values of an enumeration below it."""
     default = default_text(spec)
-    facts = ["default " + default if default else "", range_text(spec), access_text(spec)]
+    facts = [default, range_text(spec), access_text(spec)]
     blurb = " ".join(spec.blurb.split())
     lines = [f"- `{spec.name}` ({', '.join(fact for fact in facts if fact)}): {blurb}"]
     if spec.value_type.is_a(GObject.TYPE_ENUM):
