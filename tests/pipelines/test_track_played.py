@@ -414,22 +414,6 @@ class Network(NetworkCase):
         receiver = self.receiver(f"filesrc location={self.path('haptic.sdp')} ! sdpdemux latency=200 ! rtpgstdepay")
         self.assertAlmostEqual(max(self.send_all(self.udp_sender(port), receiver)), FULL_N, delta=1e-6)
 
-    def test_matroska_over_tcp(self):
-        sender = self.parse(f"{self.track} matroskamux streamable=true min-cluster-duration=0 "
-                            "max-cluster-duration=100000000 ! tcpserversink name=server host=127.0.0.1 port=0 sync=true "
-                            "sync-method=next-keyframe")
-        sender.set_state(Gst.State.PAUSED)
-        sender.get_state(Gst.CLOCK_TIME_NONE)
-        server = sender.get_by_name("server")
-        receiver = self.receiver(f"tcpclientsrc host=127.0.0.1 port={server.get_property('current-port')} ! matroskademux ! "
-                                 "flacparse ! flacdec", "ts-offset=200000000")
-        # So that all of the track is there to be received, however slow this is.
-        while server.get_property("num-handles") == 0:
-            time.sleep(.01)
-        self.play(sender)
-        self.assertTrue(self.play(receiver).eos)
-        self.assertAlmostEqual(max(self.felt(receiver.watched[-1])), FULL_N, delta=1e-6)
-
 
 class CutLink(threading.Thread):
     """Passes packets between a port of the loopback interface and another one; while it is cut, they are lost."""
