@@ -5,16 +5,13 @@
 
     meson devenv -C build python3 ../docs/elements.py
 
-Units and meanings of messages, statistics and traces, which GObject does not know, are in docs/fields.toml; the fields
-themselves are those of a film that this program plays. Needs PyGObject. With --check it writes nothing, and exits with
+The fields of messages, statistics and traces, which GObject does not know, are those that tests/docs/print_fields
+prints from the rows they are made of. Needs PyGObject. With --check it writes nothing, and exits with
 status 1 if a page is not what it would write."""
 import argparse
 import difflib
-import json
-import re
+import subprocess
 import sys
-import tempfile
-import tomllib
 from itertools import groupby
 from pathlib import Path
 
@@ -103,150 +100,51 @@ def property_lines(spec):
 
 
 class Fields:
-    """What fields.toml says, and which of it has been used."""
+    """The rows that print_fields prints."""
 
-    def __init__(self):
-        with open(DOCS / "fields.toml", "rb") as file:
-            tables = tomllib.load(file)
-        self.tables = {name: table for name, table in tables.items() if name != "stats"}
-        self.tables |= {f"stats.{name}": table for name, table in tables["stats"].items()}
-        self.used = set()
-        self.missing = []
+    def __init__(self, program):
+        self.lists, self.seen = {}, set()
+        for line in subprocess.run([program], check=True, capture_output=True, encoding="utf-8").stdout.splitlines():
+            name, *row = line.split("\t")
+            self.lists.setdefault(name, []).append(row)
 
-    def row(self, table, name):
-        """Unit and meaning."""
-        if name not in self.tables[table]:
-            self.missing.append(f"[{table}] {name}")
-            return "", ""
-        self.used.add((table, name))
-        return self.tables[table][name]
-
-    def wrong(self):
-        rest = [f"[{table}] {name}" for table, rows in self.tables.items() for name in rows
-                if (table, name) not in self.used]
-        return [f"fields.toml does not describe {name}" for name in self.missing] + [
-            f"fields.toml describes {name}, which no element has" for name in rest]
-
-
-def fields_of(structure):
-    """Name and type of each field, in their order."""
-    names = [structure.nth_field_name(i) for i in range(structure.n_fields())]
-    return {name: TYPES.get(structure.get_field_type(name).name, structure.get_field_type(name).name) for name in names}
-
-
-def json_fields(value, prefix=""):
-    """The names of the fields of a line of JSON, with those inside."""
-    names = []
-    for name, inside in value.items():
-        if isinstance(inside, dict):
-            names += json_fields(inside, f"{prefix}{name}.")
-        elif isinstance(inside, list) and inside and isinstance(inside[0], dict):
-            names += json_fields(inside[0], f"{prefix}{name}[].")
-        else:
-            names.append(prefix + name)
-    return names
-
-
-def play(pipeline):
-    """Messages, by their names, and statistics of the element `m` while a pipeline plays: {name: type} of the fields of
-    each."""
-    playing = Gst.parse_launch(pipeline)
-    bus, messages, stats = playing.get_bus(), {}, {}
-    element = playing.get_by_name("m")
-    playing.set_state(Gst.State.PLAYING)
-    while True:
-        message = bus.timed_pop_filtered(60 * Gst.SECOND, Gst.MessageType.ELEMENT | Gst.MessageType.EOS | Gst.MessageType.ERROR)
-        if message is None or message.type == Gst.MessageType.ERROR:
-            sys.exit(f"elements.py: this does not play: {pipeline}")
-        if message.type == Gst.MessageType.EOS:
-            break
-        if message.src == element:
-            found = message.get_structure()
-            messages[found.get_name()] = messages.get(found.get_name(), {}) | fields_of(found)
-    stats |= fields_of(element.get_property("stats"))
-    playing.set_state(Gst.State.NULL)
-    return messages, stats
+    def items(self, name, without=()):
+        """A list of the fields, neighbours of one meaning on one line. What the message has is not told again."""
+        rows = []
+        for key, label, facts, meaning in self.lists[name]:
+            if [key, label, facts, meaning] in without:
+                continue
+            is_told = name != "message" and (key, meaning) in self.seen
+            self.seen.add((key, meaning))
+            rows.append((f"`{label}`", f"{facts and f' ({facts})'}: {'as in the message' if is_told else meaning}"))
+        return [f"- {', '.join(label for label, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
 
 
 def table(columns, rows):
     return ["| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"] + ["| " + " | ".join(row) + " |" for row in rows]
 
 
-def field_list(fields, where, names, types=None):
-    """Neighbours of one meaning on one line."""
-    rows = []
-    for name in names:
-        unit, meaning = fields.row(where, name)
-        facts = ", ".join(filter(None, [types[name] if types else "", unit]))
-        rows.append((f"`{name}`", f"{f' ({facts})' if facts else ''}: {meaning}"))
-    return [f"- {', '.join(name for name, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
-
-
-def stats_lists(fields, stats, parts):
-    """A list for each part of fields.toml; a field that none of them has belongs to the first."""
-    lines = []
-    for part, words in parts.items():
-        others = {name for other in parts if other != part for name in fields.tables[other]}
-        names = [name for name in stats if name in fields.tables[part] or (part == next(iter(parts)) and name not in others)]
-        lines += ["", words, "", *field_list(fields, part, names, stats)]
-    return lines
-
-
-def shorter(columns):
-    """Fields that differ only in an axis, a number or a quantile, as one with a star."""
-    names = []
-    for column in columns:
-        name = re.sub(r"^(.*(?:force|torque|position|velocity))([_-])[xyz](?=[_-]|$)", r"\1\2*", column)
-        name = re.sub(r"^orientation_[wxyz]$", "orientation_*", re.sub(r"^tension_\d+_N$", "tension_*_N", name))
-        name = re.sub(r"^(.*)-(?:median|p\d+|max)$", r"\1-*", name)
-        if name not in names:
-            names.append(name)
-    return names
-
-
-def shorter_types(types):
-    return {shorter([name])[0]: kind for name, kind in types.items()}
-
-
-def observed(fields):
-    """The sections that GObject does not know, by element. Objects and reasons depend on the film, so it is one in
-    which an object moves, and the camera does not."""
-    ball = "videotestsrc num-buffers=20 pattern=ball ! video/x-raw,width=320,height=240"
-    with tempfile.TemporaryDirectory() as folder:
-        csv, lines, ticks = (f"{folder}/{name}" for name in ("trace.csv", "trace.jsonl", "ticks.csv"))
-        messages, stats = play(f"{ball} ! spidarmotion name=m trace={csv} haptic-trace={ticks} ! fakesink sync=true")
-        more, touching = play(f"{ball} ! spidarmotion name=m touch=luma trace={lines} ! fakesink sync=true")
-        # A film without motion has a reason.
-        still, unfelt = play("videotestsrc num-buffers=5 pattern=black ! spidarmotion name=m ! fakesink sync=true")
-        device, stats = messages["spidar-device"], stats | touching | unfelt
-        messages = messages["spidar-motion"] | more["spidar-motion"] | still["spidar-motion"]
-        track = "audiotestsrc num-buffers=2 wave=silence ! audio/x-raw,format=F32LE,rate=1000,channels=6,channel-mask=(bitmask)0x3f"
-        _, track_stats = play(f"{track} ! spidarsink accept-unmarked=true name=m")
-        header = Path(csv).read_text(encoding="utf-8").split("\n")[0].split(",")
-        tick_header = Path(ticks).read_text(encoding="utf-8").split("\n")[0].split(",")
-        objects = [json.loads(line) for line in Path(lines).read_text(encoding="utf-8").splitlines()]
-    fullest = max((json_fields(line) for line in objects), key=len)
-    messages, stats, track_stats = (shorter_types(types) for types in (messages, stats, track_stats))
-    haptic = ["", "## Columns of `haptic-trace`", "",
-              "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
-              *field_list(fields, "haptic-trace", shorter(tick_header))]
+def field_sections(fields):
+    """The sections that GObject does not know, by element."""
     motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame, when it is analysed: "
               "before a queue up to a second before it is shown. Use it at its `running-time`, as "
               "[motion_messages.py](../../examples/motion_messages.py) and [gtk_arrow.py](../../examples/gtk_arrow.py) do. "
               "A star stands for x, y and z:", "",
-              *field_list(fields, "message", messages, messages), "",
+              *fields.items("message"), "",
               "When the device is opened, cannot be opened, is lost or comes back, an element message `spidar-device`. The codes "
               "of the warning or error that goes with it are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
               "its profile, its firmware) or `OPEN_READ_WRITE` of `GST_RESOURCE_ERROR`, and `WRITE` when it is lost:", "",
-              *field_list(fields, "device-message", device, device), "", "## Fields of `stats`",
-              *stats_lists(fields, stats, {"stats.video": "Of the video:", "stats.device": "Of the device, while there is one:"}),
-              "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *field_list(fields, "trace", shorter(header)),
+              *fields.items("device-message"), "", "## Fields of `stats`",
+              "", "Of the video:", "", *fields.items("stats", without=fields.lists["stats.device"]),
+              "", "Of the device, while there is one:", "", *fields.items("stats.device"),
+              "", "## Columns of `trace`", "", "CSV, one line for each frame:", "", *fields.items("trace"),
               "", "JSON, one line for each frame, if the name ends in `.jsonl`; lists of two or three numbers are vectors:", "",
-              *field_list(fields, "json", fullest), *haptic]
-    of_track = {name: kind for name, kind in track_stats.items() if name not in fields.tables["stats.device"]}
+              *fields.items("json"), "", "## Columns of `haptic-trace`", "",
+              "One line for each millisecond. A star stands for an axis, or for the number of a string.", "",
+              *fields.items("haptic-trace")]
     sink = ["", "## Messages", "", "Those of [spidarmotion](spidarmotion.md#messages); `spidar-motion` for each 40 ms of the track, "
             "whose file is `track`, or where there is none, the name of the element.",
-            "", "## Fields of `stats`", *stats_lists(fields, of_track, {"stats.track": "Of the track:"}), "",
+            "", "## Fields of `stats`", "", "Of the track:", "", *fields.items("stats.track"), "",
             "Of the device: those of [spidarmotion](spidarmotion.md#fields-of-stats).", "",
             "## Columns of `haptic-trace`", "", "Those of [spidarmotion](spidarmotion.md#columns-of-haptic-trace)."]
     return {"spidarmotion": motion, "spidarsink": sink}
@@ -289,7 +187,7 @@ def pages(fields):
     for name in ELEMENTS:
         if Gst.ElementFactory.find(name) is None:
             sys.exit(f"elements.py: the element {name} was not found; is GST_PLUGIN_PATH set?")
-    sections = observed(fields)
+    sections = field_sections(fields)
     for name in ELEMENTS:
         lines = describe(name)
         lines += sections.get(name, [])
@@ -303,11 +201,10 @@ def pages(fields):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--fields", default="tests/docs/print_fields", help="the program; default: that of the build folder it runs in")
     options = parser.parse_args()
     Gst.init(None)
-    fields = Fields()
-    written = pages(fields)
-    wrong = fields.wrong()
+    written, wrong = pages(Fields(options.fields)), []
     for name, text in written.items():
         path = DOCS / name
         if not options.check:

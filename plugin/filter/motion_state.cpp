@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "plugin/frame/motion_message.h"
+#include "plugin/frame/frame_fields.h"
 #include "plugin/timing/frame_pacer.h"
 
 namespace spidar::filter {
@@ -95,20 +95,20 @@ void MotionState::reset() {
   no_force.reset();
 }
 
-GstStructure* MotionState::describe() const {
-  GstStructure* structure = gst_structure_new_empty("spidar-motion-stats");
-  stats.describe(structure);
+void MotionState::describe(FieldSink& to) const {
+  stats.describe(to);
   const std::optional<LoopSnapshot> loop = output.snapshot();
-  describe_no_force(no_force.of_film(loop), no_force.of_device(loop), structure);
-  gst_structure_set(structure, "track", G_TYPE_STRING, track.path().c_str(), "track-frames",
-                    G_TYPE_UINT64, track.frames(), nullptr);
-  reliefs.describe(structure);
-  output.describe(structure);
+  no_force_fields(no_force.of_film(loop), no_force.of_device(loop), to);
+  to("track", "", track.path().c_str(),
+     "file of the haptic track that is played; empty if there is none");
+  to("track-frames", "", track.frames(), "frames that were shown while a haptic track plays");
+  reliefs.describe(to);
+  output.describe(to);
   if (loop) {
-    gst_structure_set(structure, "refused-wrenches", G_TYPE_UINT64,
-                      schedule.refused() + loop->counters.refused_wrenches, nullptr);
+    to("refused-wrenches", "", schedule.refused() + loop->counters.refused_wrenches,
+       "wrenches that were not rendered, because too many were waiting or their times did not "
+       "increase");
   }
-  return structure;
 }
 
 const FrameReport& MotionState::process(const GstVideoFrame& frame, const GstSegment& segment) {

@@ -9,6 +9,7 @@
 #include <gst/gst.h>
 #include <gst/video/video.h>
 
+#include "core/fields.h"
 #include "plugin/filter/bus_warnings.h"
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/motion_display.h"
@@ -54,7 +55,8 @@ struct MotionState {
   void skip(GstClockTime duration);
   /// Running time begins anew: after a flush, and before a stream. Streaming thread.
   void reset();
-  GstStructure* describe() const;
+  /// The fields of `stats`.
+  void describe(FieldSink& to) const;
 
   // --- streaming thread
 

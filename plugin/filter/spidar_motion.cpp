@@ -49,6 +49,8 @@
 
 #include "plugin/filter/motion_state.h"
 #include "plugin/filter/reports/motion_meta.h"
+#include "plugin/frame/frame_fields.h"
+#include "plugin/gobject/structure_fields.h"
 #include "plugin/properties/property_table.h"
 #include "spidar/install_folder.h"
 
@@ -241,7 +243,12 @@ static void find_presets() {
 
 static void gst_spidar_motion_get_property(GObject* object, guint id, GValue* value,
                                            GParamSpec* spec) {
-  const auto stats = [](GstSpidarMotionFilter* self) { return self->state->describe(); };
+  const auto stats = [](GstSpidarMotionFilter* self) {
+    GstStructure* const structure = gst_structure_new_empty("spidar-motion-stats");
+    spidar::StructureFields to(structure, spidar::kInMessage);
+    self->state->describe(to);
+    return structure;
+  };
   spidar::get_property<MotionProperties, GstSpidarMotionFilter>(
       spidar::motion_properties(), GST_SPIDAR_MOTION(object), stats, id, value, spec);
 }

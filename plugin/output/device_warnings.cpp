@@ -8,6 +8,7 @@
 
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
+#include "plugin/gobject/structure_fields.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/string_causes.h"
 #include "spidar/grip/tension_command.h"
@@ -72,13 +73,24 @@ std::string rendered_text(const GripAbilities& can, double max_force_N) {
 
 }  // namespace
 
+void device_message_fields(const char* state, const std::string& device, const std::string& why,
+                           FieldSink& to) {
+  to("state", "", state,
+     "`opened`; `refused`: it cannot be opened, also not again, and there is no force; `lost`; "
+     "`back`: it is driven again");
+  to("device", "", device.c_str(), "its name, as for the property `device`");
+  to("reason", "", why.c_str(),
+     "of `opened`, what it is, empty for `device=sim`; of `refused` and `lost`, why; empty for "
+     "`back`");
+  to("simulated", "", is_simulated(device), "the device moves nothing real");
+}
+
 void DeviceWarnings::post(const char* state, const std::string& device,
                           const std::string& why) const {
   GST_INFO_OBJECT(element_, "device %s: %s: %s", device.c_str(), state, why.c_str());
-  GstStructure* const what =
-      gst_structure_new("spidar-device", "state", G_TYPE_STRING, state, "device", G_TYPE_STRING,
-                        device.c_str(), "reason", G_TYPE_STRING, why.c_str(), "simulated",
-                        G_TYPE_BOOLEAN, is_simulated(device) ? TRUE : FALSE, nullptr);
+  GstStructure* const what = gst_structure_new_empty("spidar-device");
+  StructureFields to(what);
+  device_message_fields(state, device, why, to);
   gst_element_post_message(element_, gst_message_new_element(GST_OBJECT(element_), what));
 }
 

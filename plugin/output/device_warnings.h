@@ -9,11 +9,16 @@
 
 #include <gst/gst.h>
 
+#include "core/fields.h"
 #include "plugin/output/haptic_output.h"
 
 namespace spidar {
 
 enum class OnDeviceError { kWarn, kError };
+
+/// The fields of the message `spidar-device`: `state` is opened, refused, lost or back.
+void device_message_fields(const char* state, const std::string& device, const std::string& why,
+                           FieldSink& to);
 
 /// Posts each warning once per stream. Streaming thread, and start() before it. Sessions are null
 /// while the element has no device.
@@ -44,7 +49,7 @@ class DeviceWarnings {
   /// Posts an information message, too, if "auto" has chosen the device, or it renders only a part
   /// of what is to be seen in the picture; and a warning of a profile that is in doubt.
   void check_opened(const HapticOutput& output) const;
-  /// Posts the message `spidar-device`: `state` is opened, refused, lost or back.
+  /// Posts the message `spidar-device`.
   void post(const char* state, const std::string& device, const std::string& why) const;
   void check_strings(const LoopSnapshot& loop);
   void check_pose(const LoopSnapshot& loop, bool has_strings);

@@ -26,64 +26,81 @@
 namespace spidar {
 namespace {
 
-guint64 not_negative(int64_t ns) {
-  return static_cast<guint64>(std::max<int64_t>(ns, 0));
+int64_t not_negative(int64_t ns) {
+  return std::max<int64_t>(ns, 0);
 }
 
-/// Adds the fields of the device; docs/fields.toml says what they mean.
-void describe_session(const HapticSession& session, GstStructure* structure) {
+void session_fields(const HapticSession& session, FieldSink& to) {
   const HapticLoop& loop = session.loop();
   const LoopSnapshot snapshot = loop.snapshot();
   const LoopCounters& counters = snapshot.counters;
+  const TickRecord& last = snapshot.last;
   const Scheduling& scheduling = session.scheduling();
-  gst_structure_set(
-      structure, "device", G_TYPE_STRING, session.grip().name().c_str(), "device-state",
-      G_TYPE_STRING, to_string(snapshot.last.device), "real-time", G_TYPE_BOOLEAN,
-      scheduling.real_time ? TRUE : FALSE, "scheduling", G_TYPE_STRING, scheduling.detail.c_str(),
-      "ticks", G_TYPE_UINT64, counters.ticks, "overruns", G_TYPE_UINT64, counters.overruns,
-      "missed-ticks", G_TYPE_UINT64, counters.missed_deadlines, "gap-ticks", G_TYPE_UINT64,
-      counters.gap_ticks, "exchange-errors", G_TYPE_UINT64, counters.exchange_errors, "pose-errors",
-      G_TYPE_UINT64, counters.pose_errors, "times-lost", G_TYPE_UINT64, counters.times_lost,
-      "pose-fault", G_TYPE_STRING, to_string(snapshot.last.pose_fault), "motor-heat", G_TYPE_DOUBLE,
-      snapshot.last.motor_heat, "held-back", G_TYPE_BOOLEAN, snapshot.last.held_back ? TRUE : FALSE,
-      "held-back-ticks", G_TYPE_UINT64, counters.held_back_ticks, "faulty-string", G_TYPE_INT,
-      snapshot.last.faulty_string, "grip-held", G_TYPE_BOOLEAN, snapshot.last.held ? TRUE : FALSE,
-      "grip-speed", G_TYPE_DOUBLE, snapshot.last.velocity.linear_m_s.norm(), "vibration-fraction",
-      G_TYPE_DOUBLE, snapshot.vibration.fraction, "vibration-left", G_TYPE_DOUBLE,
-      snapshot.vibration.left, "wakeup-median", G_TYPE_UINT64,
-      not_negative(session.timing().lateness.quantile_ns(0.5)), "wakeup-p999", G_TYPE_UINT64,
-      not_negative(session.timing().lateness.quantile_ns(0.999)), "skew-median", G_TYPE_UINT64,
-      not_negative(loop.skew().quantile_ns(0.5)), "skew-p99", G_TYPE_UINT64,
-      not_negative(loop.skew().quantile_ns(0.99)), "device-late", G_TYPE_UINT64,
-      not_negative(snapshot.late_ns), "motion-late", G_TYPE_UINT64,
-      not_negative(snapshot.motion_late_ns), nullptr);
-  const Wrench& delivered = snapshot.last.delivered;
-  gst_structure_set(structure, "force-x", G_TYPE_DOUBLE, delivered.force_N.x(), "force-y",
-                    G_TYPE_DOUBLE, delivered.force_N.y(), "force-z", G_TYPE_DOUBLE,
-                    delivered.force_N.z(), "torque-x", G_TYPE_DOUBLE, delivered.torque_Nm.x(),
-                    "torque-y", G_TYPE_DOUBLE, delivered.torque_Nm.y(), "torque-z", G_TYPE_DOUBLE,
-                    delivered.torque_Nm.z(), nullptr);
-  GValue tensions = G_VALUE_INIT;
-  g_value_init(&tensions, GST_TYPE_ARRAY);
-  for (const double tension_N : snapshot.last.tension_N) {
-    GValue tension = G_VALUE_INIT;
-    g_value_init(&tension, G_TYPE_DOUBLE);
-    g_value_set_double(&tension, tension_N);
-    gst_value_array_append_and_take_value(&tensions, &tension);
-  }
-  gst_structure_take_value(structure, "tensions", &tensions);
-  const touch::Contact& contact = snapshot.last.contact;
-  gst_structure_set(structure, "touching", G_TYPE_BOOLEAN, contact.touching ? TRUE : FALSE,
-                    "touch-depth-mm", G_TYPE_DOUBLE, 1e3 * contact.depth_m, "touch-force",
-                    G_TYPE_DOUBLE, contact.force_N.norm(), "touch-stiffness-fraction",
-                    G_TYPE_DOUBLE, contact.stiffness_fraction, nullptr);
+  to("device", "", session.grip().name().c_str(), "name of the device");
+  to("device-state", "", to_string(last.device),
+     "`closed`, `opening`, `running`, `closing`, `idle` (motors off) or `lost`");
+  to("real-time", "", scheduling.real_time, "the haptic loop has real-time priority");
+  to("scheduling", "", scheduling.detail.c_str(),
+     "its scheduling, or why it has no real-time priority");
+  to("ticks", "", counters.ticks, "ticks of the haptic loop since it was opened");
+  to("overruns", "", counters.overruns, "ticks that began more than a period late");
+  to("missed-ticks", "", counters.missed_deadlines, "ticks that were left out because of that");
+  to("gap-ticks", "", counters.gap_ticks,
+     "ticks without a force while playing, because the next frame or sample came too late");
+  to("exchange-errors", "", counters.exchange_errors, "exchanges with the device that failed");
+  to("pose-errors", "", counters.pose_errors, "readings that gave no pose");
+  to("times-lost", "", counters.times_lost, "how often the device was lost");
+  to("pose-fault", "", to_string(last.pose_fault), "why the pose is not trusted; `none` if it is");
+  to("motor-heat", "", last.motor_heat,
+     "heat of the hottest motor by the model; 1 is as much as it can sustain");
+  to("held-back", "", last.held_back,
+     "the strings get less than was wanted, to protect a motor or the hand");
+  to("held-back-ticks", "", counters.held_back_ticks, "ticks in which that was so");
+  to("faulty-string", "", last.faulty_string,
+     "number of the string whose length fits no pose; −1 if all fit");
+  to("grip-held", "", last.held, "somebody holds the grip, as far as its motion tells");
+  to("grip-speed", "m/s", last.velocity.linear_m_s.norm(), "speed of the grip");
+  to("vibration-fraction", "", snapshot.vibration.fraction,
+     "what the force is multiplied by, because it shook the hand for long; else 1");
+  to("vibration-left", "", snapshot.vibration.left,
+     "what is left of the store of vibration, 0 … 1 ([Safety](../safety.md#vibration))");
+  const auto& lateness = session.timing().lateness;
+  to("wakeup", "ns",
+     Parts{{"median", not_negative(lateness.quantile_ns(0.5))},
+           {"p999", not_negative(lateness.quantile_ns(0.999))}},
+     "lateness of the loop's ticks: `median`, `p999` (99.9 %)");
+  to("skew", "ns",
+     Parts{{"median", not_negative(loop.skew().quantile_ns(0.5))},
+           {"p99", not_negative(loop.skew().quantile_ns(0.99))}},
+     "time from when a frame was due to the tick that reached it: `median`, `p99`");
+  to("device-late", "ns", not_negative(snapshot.late_ns),
+     "how much later than its picture the device renders the force, because it lags by more than "
+     "the film is known ahead");
+  to("motion-late", "ns", not_negative(snapshot.motion_late_ns),
+     "how much later than [the motion that it shows](../playback.md#between-two-frames) the newest "
+     "frame's force came; 0 with a queue behind the element");
+  to("force", "N", axes(last.delivered.force_N),
+     "force at the grip in the newest tick: x right, y up, z towards the viewer");
+  to("torque", "N m", axes(last.delivered.torque_Nm), "torque about these axes");
+  to("tensions", "N", Eigen::MatrixXd(last.tension_N),
+     "tension of each string; 0 for strings that the device does not have");
+  const touch::Contact& contact = last.contact;
+  to("touching", "", contact.touching, "the grip touches the surface");
+  to("touch-depth-mm", "mm", 1e3 * contact.depth_m, "how deep the grip is below the surface");
+  to("touch-force", "N", contact.force_N.norm(), "contact force");
+  to("touch-stiffness-fraction", "", contact.stiffness_fraction,
+     "what is left of the stiffness; 1 unless the surface has shaken the grip");
   const LinkHealth link = session.grip().health();
-  gst_structure_set(structure, "link-fault", G_TYPE_STRING, to_string(link.last_fault),
-                    "link-timeouts", G_TYPE_UINT64, link.count(LinkFault::kTimeout), "link-errors",
-                    G_TYPE_UINT64, link.errors(), "link-late-replies", G_TYPE_UINT64,
-                    link.late_replies, "round-trip-median", G_TYPE_UINT64,
-                    not_negative(link.round_trip_median_ns), "round-trip-p99", G_TYPE_UINT64,
-                    not_negative(link.round_trip_p99_ns), nullptr);
+  to("link-fault", "", to_string(link.last_fault),
+     "the last fault of the link to the board; `none` if there was none");
+  to("link-timeouts", "", link.count(LinkFault::kTimeout),
+     "exchanges that the board did not answer in time");
+  to("link-errors", "", link.errors(), "faults of all kinds");
+  to("link-late-replies", "", link.late_replies, "answers that came after their tick");
+  to("round-trip", "ns",
+     Parts{{"median", not_negative(link.round_trip_median_ns)},
+           {"p99", not_negative(link.round_trip_p99_ns)}},
+     "time of an exchange: `median`, `p99`");
 }
 
 /// `simulated`: the device "sim", otherwise null. If a test makes the ticks, only these move its
@@ -279,9 +296,9 @@ bool HapticOutput::lead_hand(const std::optional<Eigen::Vector3d>& to_m) {
   return true;
 }
 
-void HapticOutput::describe(GstStructure* structure) const {
+void HapticOutput::describe(FieldSink& to) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (session_) describe_session(*session_, structure);
+  if (session_) session_fields(*session_, to);
 }
 
 }  // namespace spidar

@@ -11,6 +11,7 @@
 
 #include <gst/gst.h>
 
+#include "core/fields.h"
 #include "plugin/output/device_view.h"
 #include "plugin/timing/playback_follower.h"
 #include "spidar/session/haptic_session.h"
@@ -69,8 +70,8 @@ class HapticOutput {
   /// Leads the hand of the device "sim" to a position, see SimulatedDevice::lead_hand(). False for
   /// other devices, and while closed.
   bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);
-  /// Adds the fields of the device (docs/fields.toml) while one is open.
-  void describe(GstStructure* structure) const;
+  /// The fields of the device while one is open.
+  void describe(FieldSink& to) const;
 
  private:
   std::string open_named(const std::string& device, const std::string& profile, double max_force_N,

@@ -40,6 +40,7 @@
 #include "core/track/track_format.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/frame/motion_message.h"
+#include "plugin/gobject/structure_fields.h"
 #include "plugin/output/device_warnings.h"
 #include "plugin/output/haptic_output.h"
 #include "plugin/output/no_force.h"
@@ -414,11 +415,10 @@ static GstStructure* stats(GstSpidarSink* self) {
   const spidar::tracks::Faults faults = self->state->faults;
   const guint64 samples = self->state->samples;
   GST_OBJECT_UNLOCK(self);
-  GstStructure* structure = gst_structure_new(
-      "spidar-sink-stats", "samples", G_TYPE_UINT64, samples, "samples-not-finite", G_TYPE_UINT64,
-      faults.not_finite, "samples-beyond-full-scale", G_TYPE_UINT64, faults.beyond_full,
-      "samples-refused", G_TYPE_UINT64, self->state->queue.refused(), nullptr);
-  self->state->output.describe(structure);
+  GstStructure* structure = gst_structure_new_empty("spidar-sink-stats");
+  spidar::StructureFields to(structure);
+  spidar::tracks::sample_fields(samples, faults, self->state->queue.refused(), to);
+  self->state->output.describe(to);
   return structure;
 }
 

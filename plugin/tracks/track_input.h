@@ -11,6 +11,7 @@
 #include <gst/audio/audio.h>
 #include <gst/gst.h>
 
+#include "core/fields.h"
 #include "core/track/track_format.h"
 #include "core/track/track_reader.h"
 #include "plugin/tracks/track_summary.h"
@@ -23,6 +24,17 @@ struct Faults {
   uint64_t beyond_full = 0;  ///< samples with a channel beyond the full scale
   int sound_channel = -1;    ///< a channel that is sound for ears, see Band; -1: none
 };
+
+/// For `stats`, with the number of `samples` and how many of them were `refused`.
+inline void sample_fields(uint64_t samples, const Faults& faults, uint64_t refused, FieldSink& to) {
+  to("samples", "", samples, "samples of the track that were received");
+  to("samples-not-finite", "", faults.not_finite,
+     "samples that are not numbers; they count as rest");
+  to("samples-beyond-full-scale", "", faults.beyond_full,
+     "samples that were limited to full scale");
+  to("samples-refused", "", refused,
+     "samples that were not rendered, because too many were waiting");
+}
 
 /// The only reader of samples. It follows everything that their caps state: format with its byte
 /// order, rate, channels and their mask, and the layout, interleaved or not. Streaming thread only.

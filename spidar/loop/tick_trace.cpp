@@ -3,7 +3,6 @@
 #include "spidar/loop/tick_trace.h"
 
 #include <chrono>
-#include <initializer_list>
 
 #include "spidar/realtime/line_writer.h"
 #include "spidar/realtime/thread_setup.h"
@@ -16,45 +15,73 @@ constexpr const char* kFirstColumns = "tick,monotonic_ns,";  // of every version
 
 }  // namespace
 
+void tick_fields(const TickRecord& record, FieldSink& to) {
+  to("tick", "", record.tick, "number of the tick, 1 for the first after opening");
+  to("monotonic", "ns", record.monotonic_ns, "CLOCK_MONOTONIC at which it began");
+  to("lateness", "ns", record.lateness_ns, "how much later than its deadline it began");
+  to("running", "ns", record.running_ns, "running time that is on the screen; 0 while not playing");
+  to("frame", "ns", record.frame_ns == INT64_MIN ? -1 : record.frame_ns,
+     "running time of the frame whose wrench was reached last; −1 before the first");
+  to("found", "", to_string(record.found),
+     "where the wrench comes from: `nothing`, `exact` (a frame), `interpolated`, `held`, "
+     "`expired`");
+  to("playing", "", record.playing, "1 while playing");
+  to("device", "", to_string(record.device), "state of the device");
+  to("acknowledged", "", record.acknowledged,
+     "1 if the device has answered; otherwise it may not have got this tick's command");
+  to("brakes", "", record.brakes,
+     "1 while the brake of a released grip acts: then no limit of rate holds");
+  to("wanted-force", "N", axes(record.wanted.force_N),
+     "that of film and contact; zero while not playing");
+  to("wanted-torque", "N m", axes(record.wanted.torque_Nm),
+     "that of film and contact; zero while not playing");
+  to("commanded-force", "N", axes(record.commanded.force_N),
+     "after the limits and the ramp to rest");
+  to("commanded-torque", "N m", axes(record.commanded.torque_Nm),
+     "after the limits and the ramp to rest");
+  to("delivered-force", "N", axes(record.delivered.force_N),
+     "the part that the strings deliver at the pose of the row");
+  to("delivered-torque", "N m", axes(record.delivered.torque_Nm),
+     "the part that the strings deliver at the pose of the row");
+  static_assert(kMaxStrings == 8);
+  const StringVector& t = record.tension_N;
+  to("tension", "N",
+     Parts{{"0", t[0]},
+           {"1", t[1]},
+           {"2", t[2]},
+           {"3", t[3]},
+           {"4", t[4]},
+           {"5", t[5]},
+           {"6", t[6]},
+           {"7", t[7]}},
+     "tension of each string, as commanded; 0 for strings that the device does not have");
+  to("position", "m", axes(record.pose.position_m),
+     "position of the grip, from the newest good reading");
+  const Eigen::Quaterniond& q = record.pose.orientation;
+  to("orientation", "", Parts{{"w", q.w()}, {"x", q.x()}, {"y", q.y()}, {"z", q.z()}},
+     "orientation of the grip, a quaternion w, x, y, z");
+  to("pose-residual", "m", record.pose_residual_m,
+     "how far the lengths of the strings contradict the pose");
+  to("faulty-string", "", record.faulty_string,
+     "number of the string that fits no pose; −1 if all fit");
+  to("max-force", "N", record.max_force_N, "limit of the force in this tick");
+  to("max-torque", "N m", record.max_torque_Nm, "limit of the torque in this tick");
+  to("contact-depth", "m", record.contact.depth_m,
+     "how deep the grip is below the touched surface");
+  to("contact-force", "N", axes(record.contact.force_N),
+     "contact force, which is part of the wanted force");
+}
+
 std::string trace_header() {
   std::string header;
-  CsvRow row(header);
-  for (const char* name : {"tick", "monotonic_ns", "lateness_ns", "running_ns", "frame_ns", "found",
-                           "playing", "device", "acknowledged", "brakes"}) {
-    row.field(name);
-  }
-  for (const char* which : {"wanted", "commanded", "delivered"}) {
-    for (const char* part : {"_force_x_N", "_force_y_N", "_force_z_N", "_torque_x_Nm",
-                             "_torque_y_Nm", "_torque_z_Nm"}) {
-      row.field(std::string(which) + part);
-    }
-  }
-  for (int i = 0; i < kMaxStrings; ++i) row.field("tension_" + std::to_string(i) + "_N");
-  for (const char* name : {"position_x_m", "position_y_m", "position_z_m", "orientation_w",
-                           "orientation_x", "orientation_y", "orientation_z", "pose_residual_m",
-                           "faulty_string", "max_force_N", "max_torque_Nm", "contact_depth_m",
-                           "contact_force_x_N", "contact_force_y_N", "contact_force_z_N"}) {
-    row.field(name);
-  }
+  CsvLine names(CsvLine::Of::kNames, header);
+  tick_fields({}, names);
   return header;
 }
 
 void append_row(const TickRecord& record, std::string& csv) {
-  CsvRow row(csv);
-  row.number(record.tick).number(record.monotonic_ns).number(record.lateness_ns);
-  row.number(record.running_ns).number(record.frame_ns == INT64_MIN ? -1 : record.frame_ns);
-  row.field(to_string(record.found)).number(record.playing ? 1 : 0).field(to_string(record.device));
-  row.number(record.acknowledged ? 1 : 0).number(record.brakes ? 1 : 0);
-  row.wrench(record.wanted).wrench(record.commanded).wrench(record.delivered);
-  for (int i = 0; i < kMaxStrings; ++i) row.number(record.tension_N[i]);
-  const Eigen::Quaterniond& q = record.pose.orientation;
-  row.vector(record.pose.position_m).number(q.w()).number(q.x()).number(q.y()).number(q.z());
-  row.number(record.pose_residual_m)
-      .number(record.faulty_string)
-      .number(record.max_force_N)
-      .number(record.max_torque_Nm)
-      .number(record.contact.depth_m)
-      .vector(record.contact.force_N);
+  CsvLine values(CsvLine::Of::kValues, csv);
+  tick_fields(record, values);
   csv += '\n';
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <thread>
 
+#include "core/fields.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/tick_record.h"
 #include "spidar/realtime/line_writer.h"
@@ -21,12 +22,15 @@ struct TraceError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What users read of a tick: a new column is a row here with its value. A frame_ns of INT64_MIN,
+/// which means no frame, becomes −1.
+void tick_fields(const TickRecord& record, FieldSink& to);
+
 /// Names of the columns, ending in their SI units, separated by commas, without a line end.
 std::string trace_header();
 
 /// Appends `record` as a row with a line end, in the order of trace_header(). Numbers are in the
-/// "C" locale and as short as possible to be read back exactly. A frame_ns of INT64_MIN, which
-/// means no frame, becomes −1.
+/// "C" locale and as short as possible to be read back exactly.
 void append_row(const TickRecord& record, std::string& csv);
 
 /// The trace file. Used by one thread at a time, which does not wait for the file (LineWriter).

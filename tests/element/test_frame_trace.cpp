@@ -19,7 +19,9 @@ using filter::json_line;
 using nlohmann::json;
 
 json parsed(const Frame& frame) {
-  const std::string line = json_line(frame);
+  FrameReport report;
+  report.frame = frame;
+  const std::string line = json_line(report);
   EXPECT_EQ(line.find('\n'), line.size() - 1) << line;
   return json::parse(line);
 }

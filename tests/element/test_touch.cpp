@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "plugin/filter/touch/relief_stream.h"
+#include "plugin/gobject/structure_fields.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/stiffness_limit.h"
@@ -105,7 +106,8 @@ struct Reliefs {
 
 uint64_t number_of(const filter::ReliefStream& stream, const char* field) {
   GstStructure* stats = gst_structure_new_empty("stats");
-  stream.describe(stats);
+  StructureFields to(stats);
+  stream.describe(to);
   guint64 value = 0;
   gst_structure_get_uint64(stats, field, &value);
   gst_structure_free(stats);

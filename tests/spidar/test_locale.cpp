@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "core/choice/feel_rules.h"
+#include "core/fields.h"
 #include "core/track/exchange_formats.h"
 #include "core/track/funscript.h"
 #include "spidar/devices/inverse3/packets.h"
 #include "spidar/devices/sound/packets.h"
 #include "spidar/profiles/profile_file.h"
-#include "spidar/realtime/line_writer.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,10 +53,11 @@ SampleSource one_sample() {
 /// All that is written, and read again, with numbers in it.
 std::string everything() {
   std::string text;
+  CsvLine csv(CsvLine::Of::kValues, text);
   const auto add = [&text](const std::string& part) { text += part + '\n'; };
   for (const Eigen::Vector3d& direction :
        sound::Settings::parse("sound", "a,1=0.6/0.8/0,2=-1.5/0/2e-1").direction)
-    CsvRow(text).vector(direction);
+    csv("direction", "", axes(direction), "");
   add(FeelRules("1.5-2.25 object at 0.31,0.62 gain 1.5").text());
   Profile profile = load_profile(kDefaultProfile);
   profile.calibration = CalibrationRecord{12345, 1.5e-5};
@@ -66,7 +67,7 @@ std::string everything() {
   write_ahap(one_sample(), add, kAhapTolerance, 1.5);
   write_funscript(one_sample(), 0, add);
   write_hjif(one_sample(), add);
-  CsvRow(text).number(0.5).number(uint64_t{12345});
+  csv("numbers", "", Parts{{"half", 0.5}, {"whole", uint64_t{12345}}}, "");
   std::array<uint8_t, 200> packet{};
   inverse3::State device;
   device.id = "1";

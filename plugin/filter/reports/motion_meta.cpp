@@ -10,7 +10,8 @@
 #include <Eigen/SVD>
 #include <gst-spidar/gstspidarmotionmeta.h>
 
-#include "plugin/frame/motion_message.h"
+#include "plugin/frame/frame_fields.h"
+#include "plugin/gobject/structure_fields.h"
 
 namespace spidar::filter {
 namespace {
@@ -18,6 +19,23 @@ namespace {
 GstStructure* add_meta(GstBuffer* buffer) {
   GstCustomMeta* meta = gst_buffer_add_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   return gst_custom_meta_get_structure(meta);
+}
+
+GstStructure* structure_of(GstBuffer* buffer) {
+  GstCustomMeta* const meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
+  return gst_custom_meta_get_structure(meta);
+}
+
+GstStructure* add_copy(GstBuffer* to, GstBuffer* from) {
+  GstStructure* const copy = add_meta(to);
+  gst_structure_foreach(
+      structure_of(from),
+      [](GQuark field, const GValue* value, gpointer target) -> gboolean {
+        gst_structure_id_set_value(static_cast<GstStructure*>(target), field, value);
+        return TRUE;
+      },
+      copy);
+  return copy;
 }
 
 /// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros where
@@ -37,15 +55,16 @@ void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& poi
   gst_structure_set(structure, "points", G_TYPE_VARIANT, array, nullptr);
 }
 
-void set_values(GstStructure* structure, const GstSpidarFrameMotion& m, const PicturePart& film,
-                gboolean repeated) {
+/// What a map of the picture changes.
+void set_mapped(GstStructure* structure, const GstSpidarFrameMotion& m, const PicturePart& film) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
-                    "running-time", G_TYPE_UINT64, m.running_time, "interval", G_TYPE_UINT64,
-                    m.interval, "growth", G_TYPE_DOUBLE, m.growth, "roll", G_TYPE_DOUBLE, m.roll,
-                    "repeated", G_TYPE_BOOLEAN, repeated, nullptr);
-  set_area(structure, film);
-  set_motion(structure, {m.velocity_x, m.velocity_y},
-             {{m.force_x, m.force_y, m.force_z}, {m.torque_x, m.torque_y, m.torque_z}});
+                    "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y", G_TYPE_DOUBLE,
+                    m.velocity_y, "roll", G_TYPE_DOUBLE, m.roll, "force-x", G_TYPE_DOUBLE,
+                    m.force_x, "force-y", G_TYPE_DOUBLE, m.force_y, "torque-x", G_TYPE_DOUBLE,
+                    m.torque_x, "torque-y", G_TYPE_DOUBLE, m.torque_y, "torque-z", G_TYPE_DOUBLE,
+                    m.torque_z, nullptr);
+  StructureFields to(structure, kInMeta);
+  area_fields(film, to);
 }
 
 /// `position` has (0, 0) at the centre of the first pixel.
@@ -57,10 +76,9 @@ Eigen::Vector2d mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& positi
 /// The pixels of the picture `out` that show the film of `from`; turns are by right angles.
 PicturePart mapped_area(const Eigen::Matrix3d& map, GstBuffer* from, const GstVideoInfo& out) {
   guint x = 0, y = 0, width = 0, height = 0;
-  GstCustomMeta* const meta = gst_buffer_get_custom_meta(from, GST_SPIDAR_MOTION_META_NAME);
-  if (!gst_structure_get(gst_custom_meta_get_structure(meta), "area-x", G_TYPE_UINT, &x, "area-y",
-                         G_TYPE_UINT, &y, "area-width", G_TYPE_UINT, &width, "area-height",
-                         G_TYPE_UINT, &height, nullptr)) {
+  if (!gst_structure_get(structure_of(from), "area-x", G_TYPE_UINT, &x, "area-y", G_TYPE_UINT, &y,
+                         "area-width", G_TYPE_UINT, &width, "area-height", G_TYPE_UINT, &height,
+                         nullptr)) {
     return {};
   }
   const Eigen::Array2d size_px(GST_VIDEO_INFO_WIDTH(&out), GST_VIDEO_INFO_HEIGHT(&out));
@@ -138,9 +156,8 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const Eigen::Matrix3d& map,
     moved.push_back({point.id, 0, before.x(), before.y(), now.x(), now.y(), point.object, 0});
   }
   g_array_unref(points);
-  GstStructure* structure = add_meta(to);
-  set_values(structure, motion, mapped_area(map, from, out),
-             gst_buffer_repeats_spidar_motion(from));
+  GstStructure* const structure = add_copy(to, from);
+  set_mapped(structure, motion, mapped_area(map, from, out));
   set_points(structure, moved);
   return true;
 }
@@ -165,19 +182,12 @@ Eigen::Matrix3d map_of(const MatrixTransform& transform) {
   return moved(out.x, out.y) * inside.cast<double>() * moved(-in.x, -in.y);
 }
 
-gboolean transform(GstBuffer* to, GstCustomMeta* meta, GstBuffer* from, GQuark type, gpointer data,
+gboolean transform(GstBuffer* to, GstCustomMeta*, GstBuffer* from, GQuark type, gpointer data,
                    gpointer) {
-  GstStructure* given = gst_custom_meta_get_structure(meta);
   if (GST_META_TRANSFORM_IS_COPY(type)) {
     const auto* copy = static_cast<const GstMetaTransformCopy*>(data);
     if (copy->region) return FALSE;  // the picture is incomplete in a part of the buffer
-    gst_structure_foreach(
-        given,
-        [](GQuark field, const GValue* value, gpointer target) -> gboolean {
-          gst_structure_id_set_value(static_cast<GstStructure*>(target), field, value);
-          return TRUE;
-        },
-        add_meta(to));
+    add_copy(to, from);
     return TRUE;
   }
   if (GST_VIDEO_META_TRANSFORM_IS_SCALE(type)) {
@@ -208,27 +218,9 @@ void register_motion_meta() {
 void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, int height) {
   GstCustomMeta* before = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);
   if (before) gst_buffer_remove_meta(buffer, reinterpret_cast<GstMeta*>(before));
-  const Frame& frame = report.frame;
-  const Eigen::Vector2d& velocity = frame.motion.velocity_px_s;
-  const Eigen::Vector3d &force = frame.wrench.force_N, &torque = frame.wrench.torque_Nm;
-  const GstSpidarFrameMotion motion{
-      static_cast<guint>(width),
-      static_cast<guint>(height),
-      static_cast<guint64>(frame.stamp.running_ns),
-      static_cast<guint64>(frame.interval_ns),
-      velocity.x(),
-      velocity.y(),
-      frame.motion.growth_1_s,
-      frame.motion.roll_rad_s,
-      force.x(),
-      force.y(),
-      force.z(),
-      torque.x(),
-      torque.y(),
-      torque.z(),
-  };
   GstStructure* structure = add_meta(buffer);
-  set_values(structure, motion, report.film_part(), frame.is_continuation() ? TRUE : FALSE);
+  StructureFields to(structure, kInMeta);
+  frame_fields(report, {0, 0, static_cast<guint>(width), static_cast<guint>(height)}, to);
   std::vector<SerialisedPoint> points;
   points.reserve(report.points.size());
   for (const OwnedPoint& point : report.points) {

@@ -7,10 +7,8 @@
 #include <mutex>
 #include <optional>
 
-#include <gst/gst.h>
-
-#include "plugin/frame/frame_report.h"
-#include "plugin/frame/motion_message.h"
+#include "core/fields.h"
+#include "plugin/frame/frame_fields.h"
 #include "spidar/realtime/latency_histogram.h"
 
 namespace spidar::filter {
@@ -34,11 +32,11 @@ class MotionStats {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++frames_;
     if (frame.picture == Likeness::kFirst) ++restarts_;
-    features_ = frame.features;
-    tracked_ = frame.motion.tracked;
+    features_ = static_cast<uint32_t>(frame.features);
+    tracked_ = static_cast<uint32_t>(frame.motion.tracked);
     model_.reset();
     if (frame.background) model_ = frame.background->model.kind;
-    objects_ = static_cast<int>(frame.objects.size());
+    objects_ = static_cast<uint32_t>(frame.objects.size());
     film_ = report.film_part();
     analysis_.add(report.took_ns);
   }
@@ -48,28 +46,34 @@ class MotionStats {
     return frames_;
   }
 
-  /// Adds the fields that docs/fields.toml describes, of what is felt or of the last frame.
-  void describe(GstStructure* structure) const {
+  /// Of what is felt, or of the last frame.
+  void describe(FieldSink& to) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    set_area(structure, film_);
-    gst_structure_set(
-        structure, "frames", G_TYPE_UINT64, frames_, "restarts", G_TYPE_UINT64, restarts_,
-        "features", G_TYPE_UINT, static_cast<guint>(features_), "tracked", G_TYPE_UINT,
-        static_cast<guint>(tracked_), "model", G_TYPE_STRING, model_ ? to_string(*model_) : "none",
-        "objects", G_TYPE_UINT, static_cast<guint>(objects_), "analysis-median", G_TYPE_UINT64,
-        static_cast<guint64>(analysis_.quantile_ns(0.5)), "analysis-p95", G_TYPE_UINT64,
-        static_cast<guint64>(analysis_.quantile_ns(0.95)), "analysis-max", G_TYPE_UINT64,
-        static_cast<guint64>(analysis_.max_ns()), nullptr);
+    to("frames", "", frames_, "frames that were analysed");
+    to("restarts", "", restarts_,
+       "how often the analysis began anew: at the first frame, a cut, a change of size");
+    to("features", "", features_, "points that are followed from this frame on");
+    to("tracked", "", tracked_, "points or blocks that the motion is measured with");
+    to("model", "", model_ ? to_string(*model_) : "none",
+       "model of the camera's motion: `none`, `still`, `translation`, `similarity`, `affine`, "
+       "`homography`");
+    to("objects", "", objects_, "objects that are known, visible or not");
+    area_fields(film_, to);
+    to("analysis", "ns",
+       Parts{{"median", analysis_.quantile_ns(0.5)},
+             {"p95", analysis_.quantile_ns(0.95)},
+             {"max", analysis_.max_ns()}},
+       "time of the analysis of a frame: `median`, `p95` (95 %), `max`");
   }
 
  private:
   mutable std::mutex mutex_;
   uint64_t frames_ = 0;
   uint64_t restarts_ = 0;
-  int features_ = 0;
-  int tracked_ = 0;
+  uint32_t features_ = 0;
+  uint32_t tracked_ = 0;
   std::optional<ModelKind> model_;
-  int objects_ = 0;
+  uint32_t objects_ = 0;
   PicturePart film_;
   /// 10 µs to 50 ms: more than that is too slow for any video.
   DurationHistogram<5000, 10'000> analysis_;

@@ -231,11 +231,13 @@ void ReliefStream::end(int64_t shown_ns) {
   mailbox_->publish();
 }
 
-void ReliefStream::describe(GstStructure* structure) const {
-  gst_structure_set(structure, "reliefs", G_TYPE_UINT64, reliefs_.load(), "reliefs-left-out",
-                    G_TYPE_UINT64, reliefs_left_out_.load(), "relief-median", G_TYPE_UINT64,
-                    static_cast<guint64>(took_.quantile_ns(0.5)), "touch-stiffness", G_TYPE_DOUBLE,
-                    stiffness_N_m_.load(), nullptr);
+void ReliefStream::describe(FieldSink& to) const {
+  to("reliefs", "", reliefs_.load(), "reliefs that `touch` made of frames");
+  to("reliefs-left-out", "", reliefs_left_out_.load(),
+     "reliefs that found no room, because more than 30 frames were on their way to the screen");
+  to("relief", "ns", Parts{{"median", took_.quantile_ns(0.5)}}, "time of a relief: `median`");
+  to("touch-stiffness", "N/m", stiffness_N_m_.load(),
+     "stiffness as rendered: less than the property where drives are slow or were not measured");
 }
 
 }  // namespace spidar::filter

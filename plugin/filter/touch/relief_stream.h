@@ -14,6 +14,7 @@
 #include <gst/gst.h>
 
 #include "core/analysis/frame.h"
+#include "core/fields.h"
 #include "core/orientation.h"
 #include "core/picture/image_view.h"
 #include "core/touch/depth_picture.h"
@@ -61,7 +62,7 @@ class ReliefStream {
   void clear();
   /// Removes the surface until set_muted(false).
   void set_muted(bool muted);
-  void describe(GstStructure* structure) const;
+  void describe(FieldSink& to) const;
 
   // --- streaming thread
 

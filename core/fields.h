@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// The fields of a record that users read. Each is a row of a name, a unit, a value and a sentence,
+/// from which messages, statistics, traces and the pages of the elements are made.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace spidar {
+
+/// A signed number of 64 bits is a time or a duration in ns. GStreamer's have no sign: −1 is its
+/// GST_CLOCK_TIME_NONE.
+using Scalar = std::variant<bool, int32_t, uint32_t, uint64_t, int64_t, double, const char*>;
+/// Values of one row, each with what its name ends in. They are a field each, and an array in JSON.
+using Parts = std::vector<std::pair<const char*, Scalar>>;
+/// A matrix is one field, an array.
+using FieldValue = std::variant<Scalar, Parts, Eigen::MatrixXd>;
+
+/// With the parts x, y, z.
+template <int kSize>
+Parts axes(const Eigen::Matrix<double, kSize, 1>& vector) {
+  static_assert(kSize == 2 || kSize == 3);
+  Parts parts{{"x", vector[0]}, {"y", vector[1]}};
+  if constexpr (kSize == 3) parts.emplace_back("z", vector[2]);
+  return parts;
+}
+
+/// Names and sentences are literals.
+struct Field {
+  const char* name;  ///< as in a GstStructure: "stream-time"
+  const char* unit;  ///< "" for none
+  const char* meaning;
+
+  /// As in a file, where names have units: "stream_time_ns"; with `part`, "force_x_N".
+  std::string column(const char* part = "") const;
+};
+
+/// Takes the rows of a record one after the other. What is made of them derives from it.
+class FieldSink {
+ public:
+  /// Those of in() that belong to one of the `outputs` are taken, and all others.
+  explicit FieldSink(unsigned outputs = 0) : outputs_(outputs) {}
+  virtual ~FieldSink() = default;
+
+  void operator()(const char* name, const char* unit, const FieldValue& value,
+                  const char* meaning) {
+    take({name, unit, meaning}, value);
+  }
+  /// A row of these outputs only.
+  void in(unsigned outputs, const char* name, const char* unit, const FieldValue& value,
+          const char* meaning) {
+    if ((outputs & outputs_) != 0) take({name, unit, meaning}, value);
+  }
+  /// The rows from here to end() belong together, which JSON shows.
+  virtual void begin(const char* /*group*/) {}
+  virtual void end() {}
+
+ protected:
+  virtual void take(const Field& field, const FieldValue& value) = 0;
+
+ private:
+  const unsigned outputs_;
+};
+
+/// Appends names or values to a line, with commas between them. Numbers are written without regard
+/// to the locale, as short as possible to be read back exactly; true is 1.
+class CsvLine : public FieldSink {
+ public:
+  enum class Of { kNames, kValues };
+  CsvLine(Of of, std::string& line, unsigned outputs = 0)
+      : FieldSink(outputs), of_(of), line_(line), begin_(line.size()) {}
+
+ private:
+  void take(const Field& field, const FieldValue& value) override;
+  void add(const Field& field, const char* part, const Scalar& scalar);
+
+  const Of of_;
+  std::string& line_;
+  const size_t begin_;
+};
+
+}  // namespace spidar
