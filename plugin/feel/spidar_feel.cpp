@@ -98,7 +98,7 @@ constexpr const char* kHelp =
 
 Plays FILM, a file or URI, a folder of films or a playlist, or runs PROGRAM, a player that uses GStreamer,
 so that the video is felt on what is plugged in: a SPIDAR, a force-feedback joystick, a gamepad. Without a
-device, what would be felt is shown. The keys > and < go to the next film and the previous one. PROPERTY is
+device, what would be felt is shown. The keys n and b go to the next film and the previous one. PROPERTY is
 one of spidarmotion: --properties lists them, and gst-inspect-1.0 spidarmotion explains them. preset=NAME
 stands for those of a preset: paper, film or gentle. A haptic track beside FILM, or else its funscripts
 (film.funscript, film.roll.funscript and so on) or film.hjif, is felt instead of its motion.
