@@ -38,7 +38,7 @@ DeviceName::DeviceName(const std::string& text)
 std::vector<const DeviceKind*> kinds_called(const std::string& device) {
   std::vector<const DeviceKind*> kinds;
   for (const DeviceKind& kind : devices()) {
-    if (*kind.device && device == kind.device) kinds.push_back(&kind);
+    if (device == kind.device) kinds.push_back(&kind);
   }
   return kinds;
 }

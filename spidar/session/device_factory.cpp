@@ -22,7 +22,7 @@ std::string known_names(bool with_elements) {
   std::string names = std::string("sim, sim:BOARD") + (with_elements ? ", none, auto" : "");
   const char* last = "";
   for (const DeviceKind& kind : devices()) {
-    if (*kind.names && kind.device != std::string(last)) names += std::string(", ") + kind.names;
+    if (kind.device != std::string(last)) names += std::string(", ") + kind.names;
     last = kind.device;
   }
   return names;
@@ -43,9 +43,7 @@ constexpr std::pair<const char*, const char*> kWords[] = {
 /// "; did you mean ff?"
 std::string meant_device(const std::string& device) {
   std::vector<std::string> names = {"sim", "none", "auto"};
-  for (const DeviceKind& kind : devices()) {
-    if (*kind.device) names.emplace_back(kind.device);
-  }
+  for (const DeviceKind& kind : devices()) names.emplace_back(kind.device);
   return meant(device, names);
 }
 

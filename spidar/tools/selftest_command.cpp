@@ -52,8 +52,7 @@ void write(const SelftestOptions& options, const Profile& profile,
 }
 
 bool is_stick(const std::string& device) {
-  return device == "ff" || device == "sim:ff" || device == "sim:pad" ||
-         device.compare(0, 3, "ff:") == 0;
+  return device == "ff" || device == "sim:ff" || device.compare(0, 3, "ff:") == 0;
 }
 
 const char* side_of(double moved_m) {

@@ -18,15 +18,6 @@ ff::Description ForceFeedback::stick() noexcept {
   return description;
 }
 
-ff::Description ForceFeedback::pad() noexcept {
-  ff::Description description = stick();
-  description.constant = 0;
-  description.name = {};
-  constexpr char kName[] = "emulated pad";
-  std::copy(std::begin(kName), std::end(kName), description.name.begin());
-  return description;
-}
-
 template <typename Structure>
 void ForceFeedback::answer(const Structure& structure) noexcept {
   static_assert(sizeof structure <= sizeof(ff::Description));

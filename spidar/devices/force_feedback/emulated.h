@@ -17,8 +17,6 @@ class ForceFeedback final : public Board {
  public:
   /// A stick with two axes, gain, autocentre and room for sixteen effects.
   static ff::Description stick() noexcept;
-  /// The same, but that it only rumbles.
-  static ff::Description pad() noexcept;
 
   explicit ForceFeedback(std::shared_ptr<Motors> motors,
                          const ff::Description& description = stick()) noexcept

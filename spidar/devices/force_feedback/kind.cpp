@@ -88,17 +88,7 @@ std::vector<DeviceKind> force_feedback_kinds() {
   kind.emulate = emulate<emulated::ForceFeedback>;
   kind.make = make_force_feedback;
   kind.list = list_force_feedback_boards;
-  DeviceKind pad = kind;  // a simulation without a name of its own: a real one is called ff, too
-  pad.device = pad.names = pad.chosen_as = "";
-  pad.title = "gamepad that rumbles";
-  pad.board = "pad";
-  pad.emulate = [](std::shared_ptr<emulated::Motors> motors) -> std::unique_ptr<emulated::Board> {
-    return std::make_unique<emulated::ForceFeedback>(std::move(motors),
-                                                     emulated::ForceFeedback::pad());
-  };
-  pad.make = nullptr;
-  pad.list = [] { return std::vector<DeviceInfo>(); };
-  return {kind, pad};
+  return {kind};
 }
 
 }  // namespace spidar
