@@ -3,13 +3,11 @@
 /// Converts the motion of the picture to a wrench in six degrees of freedom.
 #pragma once
 
-#include <cmath>
-
 #include "core/force/gain_controller.h"
 #include "core/motion/image_motion.h"
 #include "core/points/tracker.h"
 #include "core/require.h"
-#include "core/wrench.h"
+#include "core/wrench_size.h"
 
 namespace spidar {
 
@@ -29,9 +27,6 @@ inline void validate(const AxisGains& gains) {
 /// Growth and roll count as the speed at which they move a point at this distance from the centre:
 /// half the height of the reference frame.
 constexpr double kRim_px = kReferenceHeight_px / 2;
-
-/// Lever arm of the torque: the radius of the grip.
-constexpr double kTorqueArm_m = 0.0225;
 
 /// Velocity, growth and roll as speeds in px/s of the reference frame: u = (v_x, v_y, depth ·
 /// growth · R, roll gain · roll · R) with R = kRim_px. `frame_height` > 0.
@@ -62,16 +57,6 @@ inline Wrench render_motion(GainController& controller, const ImageMotion& motio
   wrench.force_N << force_N * direction[0], -force_N * direction[1], force_N * direction[2];
   wrench.torque_Nm.z() = 0 - force_N * kTorqueArm_m * direction[3];  // no −0 without roll
   return wrench;
-}
-
-/// The smallest force that a hand feels, the mean of wrist, elbow and shoulder: IEEE Trans. Haptics
-/// 2013, PubMed 24808327.
-constexpr double kFeltForce_N = 0.04;
-
-/// Magnitude of a wrench as one force, with the torque divided by the arm kTorqueArm_m (see
-/// render_motion()).
-inline double size_N(const Wrench& wrench) noexcept {
-  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / kTorqueArm_m);
 }
 
 }  // namespace spidar

@@ -5,9 +5,8 @@
 
 #include <cmath>
 
-#include "core/force/motion_rendering.h"
 #include "core/require.h"
-#include "core/wrench.h"
+#include "core/wrench_size.h"
 
 namespace spidar {
 

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/grip/string_geometry.h"
-#include "core/wrench.h"
+#include "core/wrench_size.h"
 
 namespace spidar {
 
@@ -19,8 +19,8 @@ struct TensionProblem {
   StringVector t_min_N = StringVector::Zero();
   StringVector t_max_N = StringVector::Zero();
   StringVector t_ref_N = StringVector::Zero();
-  double epsilon = 1e-4;            ///< > 0
-  double torque_length_m = 0.0225;  ///< ℓ > 0
+  double epsilon = 1e-4;                  ///< > 0
+  double torque_length_m = kTorqueArm_m;  ///< ℓ > 0
 };
 
 enum class TensionStatus {

@@ -214,7 +214,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     const Grip& grip = session->grip();
-    most_force_N_ = std::max(kDefaultForce_N, grip.abilities().largest_force_N);
+    most_force_N_ = grip.abilities().max_limit_N();
     most_force_of_ = grip.traits().has_strings ? profile.name : device;
     said_too_much_ = false;
     doubt_ = doubt;

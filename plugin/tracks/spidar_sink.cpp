@@ -36,8 +36,8 @@
 #include <gst/gst.h>
 
 #include "core/default_limits.h"
-#include "core/force/motion_rendering.h"
 #include "core/track/track_format.h"
+#include "core/wrench_size.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/frame/motion_message.h"
 #include "plugin/gobject/structure_fields.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/force/motion_rendering.h"
+#include "core/wrench_size.h"
 #include "spidar/text.h"
 
 namespace spidar::tracks {

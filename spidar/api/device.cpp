@@ -89,7 +89,7 @@ struct DeviceRange {
     const spidar::GripAbilities can = grip.abilities();
     const bool has_strings = grip.traits().has_strings;
     giver = has_strings ? profile.name : device;
-    largest_force_N = std::floor(10 * std::max(spidar::kDefaultForce_N, can.largest_force_N)) / 10;
+    largest_force_N = std::floor(10 * can.max_limit_N()) / 10;
     if (has_strings) {
       largest_torque_Nm = std::floor(1000 * spidar::largest_torque_Nm(profile)) / 1000;
     }

@@ -3,6 +3,7 @@
 /// The interface between the haptic loop and what a hand holds: a wrench out, a pose in.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -34,6 +35,8 @@ struct GripAbilities {
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
+  /// The largest force limit: what the grip gives, and at least the default, which all accept.
+  double max_limit_N() const noexcept { return std::max(kDefaultForce_N, largest_force_N); }
 };
 
 /// Replaces negative values and NaN by zero.

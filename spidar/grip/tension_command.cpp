@@ -87,14 +87,10 @@ void TensionCommand::reset() noexcept {
   left_out_ = -1;
 }
 
-double TensionCommand::size_N(const Wrench& wrench) const noexcept {
-  return std::hypot(wrench.force_N.norm(), wrench.torque_Nm.norm() / problem_.torque_length_m);
-}
-
 double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept {
   problem_.wrench = wrench;
   problem_.t_min_N = problem_.t_ref_N = min_N_;
-  const double above_N = kTensionPerForce * size_N(wrench);
+  const double above_N = kTensionPerForce * size_N(wrench, problem_.torque_length_m);
   double denied = 0;
   for (int i = 0; i < problem_.count; ++i) {
     const double allowed_N = std::clamp(limit_N[i], min_N_[i], max_N_[i]);
@@ -113,7 +109,7 @@ double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& li
 StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrench,
                                    const StringVector& limit_N) noexcept {
   fraction_ = 1;
-  const double size = last_size_N_ = size_N(wrench);
+  const double size = last_size_N_ = size_N(wrench, problem_.torque_length_m);
   last_N_ = min_N_;
   if (!(size > 0)) return last_N_;
   problem_.W = W;
@@ -179,7 +175,7 @@ StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits&
 StringVector TensionCommand::fade(const Wrench& wrench, double pace) noexcept {
   fraction_ = 1;
   if (!(last_size_N_ > 0)) return min_N_;
-  const double gone = 1 - size_N(wrench) / last_size_N_;
+  const double gone = 1 - size_N(wrench, problem_.torque_length_m) / last_size_N_;
   return min_N_ + std::clamp(1 - pace * gone, 0.0, 1.0) * (last_N_ - min_N_);
 }
 

@@ -169,9 +169,6 @@ class TensionCommand {
   /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
 
-  /// Size of a wrench, N: its torque counts as a force at the grip's radius.
-  double size_N(const Wrench& wrench) const noexcept;
-
  private:
   /// Sets the wrench of the problem and the corresponding bounds. Returns the fraction of their
   /// range that strings may not use, 0 … 1.

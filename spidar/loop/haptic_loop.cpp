@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/force/motion_rendering.h"
+#include "core/wrench_size.h"
 #include "spidar/grip/released_grip.h"
 #include "spidar/loop/brake_table.h"
 

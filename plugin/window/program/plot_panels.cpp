@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <optional>
 
-#include "core/force/motion_rendering.h"
+#include "core/wrench_size.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/choice/feel_rules.h"
-#include "core/force/motion_rendering.h"
+#include "core/wrench_size.h"
 #include "plugin/frame/frame_report.h"
 #include "plugin/output/device_view.h"
 
