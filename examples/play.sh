@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # Plays a video whose motion becomes force on the device that is plugged in, or a simulated one, and ends with a
-# summary and a picture of the force. First installs missing packages (Debian) and builds.
+# summary and a picture of the force. First installs missing packages (Debian) and builds; in the end, once, it builds
+# the other programs.
 #   examples/play.sh                             ten seconds of a ball, in slow motion
 #   examples/play.sh VIDEO                       a file, or a URI such as https://...
 #   examples/play.sh VIDEO -- controller=linear max-force=2    with properties of spidarmotion
@@ -23,19 +24,29 @@ quietly() {
     return "$status"
 }
 
+# make TEXT TARGET...: builds what is missing, after a line with TEXT.
+make() {
+    if [[ $(ninja -C "$top/build" -n "${@:2}") != *"no work to do"* ]]; then
+        echo "$1"
+        quietly ninja -C "$top/build" "${@:2}"
+    fi
+}
+
+# What the film needs. The guardian is needed by real boards.
 build() {
     if [[ ! -f $top/build/build.ninja ]]; then
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
-    # The guardian is needed by real boards, and docs/start.md goes on with the others.
-    local targets=(plugin/libgstspidar{,feel}.so plugin/{spidar-feel,spidartrack} spidar/{spidar-guardian,tools/spidarctl}
-        examples/play/play)
+    local targets=(plugin/libgstspidar.so spidar/spidar-guardian examples/play/play)
     # The debug window is a program of its own, if there are the libraries for it.
     ! grep -q '^build plugin/spidar-window:' "$top/build/build.ninja" || targets+=(plugin/spidar-window)
-    if [[ $(ninja -C "$top/build" -n "${targets[@]}") != *"no work to do"* ]]; then
-        echo "building; the first time, this takes some minutes"
-        quietly ninja -C "$top/build" "${targets[@]}"
-    fi
+    make "building; the first time, this takes some minutes" "${targets[@]}"
+}
+
+# What README.md and docs/start.md go on with.
+build_programs() {
+    make "building spidar-feel, spidartrack and spidarctl for the next steps" \
+        plugin/{libgstspidarfeel.so,spidar-feel,spidartrack} spidar/tools/spidarctl
 }
 
 # A free film of a tennis ball that is dropped, in slow motion; the camera lies on its side.
@@ -115,4 +126,7 @@ fi
 
 export GST_PLUGIN_PATH=$top/build/plugin${GST_PLUGIN_PATH:+:$GST_PLUGIN_PATH}
 export GST_REGISTRY=$top/build/gst-registry.bin
-exec "$play" "${options[@]}" "${video[@]}" "${properties[@]}"
+status=0
+"$play" "${options[@]}" "${video[@]}" "${properties[@]}" || status=$?
+build_programs
+exit "$status"
