@@ -6,6 +6,7 @@
 
 #include <gst/video/video.h>
 
+#include "plugin/feel/small_copy.h"
 #include "plugin/gobject/downstream.h"
 
 using spidar::Ref;
@@ -28,6 +29,9 @@ struct _GstSpidarFeelBin {
   // in the place of the middle. Read by the streaming thread and written in state changes,
   // atomically.
   GstElement* motion;
+  // Between `before` and `after`: the middle, that spidarmotion, or a bin that gives it small
+  // copies of frames in GPU memory.
+  GstElement* in_place;
   // Of the streaming thread: how pictures are to be turned before they are shown, from the tags of
   // the stream, and of the whole film (AUTO: there is none); and whether nothing is known to do so.
   GstVideoOrientationMethod of_stream, of_film;
@@ -91,6 +95,13 @@ static bool is_set(const char* properties, const char* name) {
   return found;
 }
 
+/// Of the frames that come; empty before the first.
+static Ref<GstCaps> current_caps(GstSpidarFeelBin* self) {
+  const Ref<GstPad> pad(gst_element_get_static_pad(self->before, "sink"));
+  GstCaps* const caps = gst_pad_get_current_caps(pad.get());
+  return Ref<GstCaps>(caps ? caps : gst_caps_new_empty());
+}
+
 /// Without a device, what would be felt is shown, unless the user has said what is to be drawn.
 static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstMessage* message) {
   const GstStructure* told = gst_message_get_structure(message);
@@ -98,7 +109,10 @@ static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstM
   if (gst_structure_has_name(told, "spidar-device") &&
       gst_structure_get_boolean(told, "simulated", &simulated) && simulated &&
       !is_set(self->properties, "overlay")) {
-    gst_util_set_object_arg(G_OBJECT(motion), "overlay", "curve");
+    // Nothing is drawn into frames in GPU memory.
+    const bool is_drawn = !spidar::is_in_gpu(current_caps(self).get());
+    gst_util_set_object_arg(G_OBJECT(motion), is_drawn ? "overlay" : "debug-window",
+                            is_drawn ? "curve" : "true");
   }
 }
 
@@ -176,8 +190,9 @@ static GstElement* front(GstSpidarFeelBin* self) {
   return self->flip ? self->flip : self->before;
 }
 
-/// Replaces `out` by `in` while no data flow between `before` and `after`.
-static void replace_element(GstSpidarFeelBin* self, GstElement* out, GstElement* in) {
+/// Replaces what is in place by `in` while no data flow between `before` and `after`.
+static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
+  GstElement* const out = self->in_place;
   gst_element_unlink_many(front(self), out, self->after, nullptr);
   // Not NULL: a spidarmotion keeps its device, at rest, for the next frames that it can measure.
   gst_element_set_state(out, GST_STATE_READY);
@@ -185,11 +200,27 @@ static void replace_element(GstSpidarFeelBin* self, GstElement* out, GstElement*
   gst_bin_add(GST_BIN(self), in);
   link_quietly(in, self->after);
   link_quietly(front(self), in);
+  self->in_place = in;
   spidar::follow_state(GST_ELEMENT(self), in);
 }
 
-static bool has(GstSpidarFeelBin* self, GstElement* element) {
-  return gst_object_has_as_parent(GST_OBJECT(element), GST_OBJECT(self));
+/// Takes spidarmotion out of where it is.
+static void stop_measuring(GstSpidarFeelBin* self) {
+  if (self->in_place == self->middle) return;
+  const Ref<GstElement> before = spidar::new_ref(self->in_place);
+  put_in_place(self, self->middle);
+  if (before.get() == self->motion) return;
+  gst_bin_remove(GST_BIN(before.get()), self->motion);
+  gst_element_set_state(before.get(), GST_STATE_NULL);
+}
+
+/// Gives frames of `caps` to spidarmotion.
+static void measure(GstSpidarFeelBin* self, const GstCaps* caps) {
+  const bool in_gpu = spidar::is_in_gpu(caps);
+  if (self->in_place == self->motion && !in_gpu) return;
+  stop_measuring(self);
+  GstElement* const in = in_gpu ? spidar::small_copy_bin_new(caps, self->motion) : self->motion;
+  if (in) put_in_place(self, in);
 }
 
 /// Whether the element turns pictures as their tag image-orientation says.
@@ -228,16 +259,15 @@ static GstPadProbeReturn set_upright(GstPad*, GstPadProbeInfo* info, gpointer) {
 }
 
 static void add_flip(GstSpidarFeelBin* self) {
+  if (spidar::is_in_gpu(current_caps(self).get())) return;
   GstElement* const flip = gst_element_factory_make("videoflip", nullptr);
   if (!flip) return;
   const Ref<GstPad> source(gst_element_get_static_pad(flip, "src"));
   gst_pad_add_probe(source.get(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, set_upright, nullptr,
                     nullptr);
-  const bool is_felt = self->motion && has(self, self->motion);
-  GstElement* const next = is_felt ? self->motion : self->middle;
-  gst_element_unlink(self->before, next);
+  gst_element_unlink(self->before, self->in_place);
   gst_bin_add(GST_BIN(self), flip);
-  gst_element_link_many(self->before, flip, next, nullptr);
+  gst_element_link_many(self->before, flip, self->in_place, nullptr);
   self->flip = flip;
   spidar::follow_state(GST_ELEMENT(self), flip);
 }
@@ -290,7 +320,12 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
     if (GST_EVENT_TYPE(event) == GST_EVENT_TAG) take_tags(self, event);
     if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
   }
-  if (motion && !has(self, motion)) replace_element(self, self->middle, motion);
+  GstCaps* caps = nullptr;
+  if ((info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0) {
+    gst_event_parse_caps(GST_PAD_PROBE_INFO_EVENT(info), &caps);
+  }
+  if (motion && caps) measure(self, caps);
+  if (motion && !caps && self->in_place == self->middle) measure(self, current_caps(self).get());
   if (motion && self->lies) tell_that_it_lies(self);
   return GST_PAD_PROBE_OK;
 }
@@ -327,7 +362,7 @@ static void begin_to_feel(GstSpidarFeelBin* self) {
 /// Called while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
   if (!self->motion) return;
-  if (has(self, self->motion)) replace_element(self, self->motion, self->middle);
+  stop_measuring(self);
   const Ref<GstElement> motion(self->motion);
   g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
   gst_element_set_state(motion.get(), GST_STATE_NULL);
@@ -403,8 +438,10 @@ GstElement* gst_spidar_feel_bin_new(const char* properties, bool turns) {
     self->properties = g_strdup(properties ? properties : "");
     self->turns = turns;
     self->before = before;
-    self->middle = GST_ELEMENT(gst_object_ref_sink(middle));
+    self->middle = self->in_place = GST_ELEMENT(gst_object_ref_sink(middle));
     self->after = after;
+    // Nothing could be drawn into frames in GPU memory.
+    if (!is_set(self->properties, "overlay")) caps = gst_caps_merge(spidar::gpu_caps(), caps);
     g_object_set(middle, "caps", caps, nullptr);
     gst_bin_add_many(GST_BIN(self), before, middle, after, nullptr);
     gst_element_link_many(before, middle, after, nullptr);

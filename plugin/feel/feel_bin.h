@@ -11,7 +11,8 @@ G_BEGIN_DECLS
 /// videoconvert ! spidarmotion ! videoconvert, where spidarmotion is there only once the video has
 /// begun to play: what looks at films without playing them (thumbnails, tags) opens no device. A
 /// device that cannot be opened is a warning, and the video plays without it. Of several in a
-/// process the first that plays has the device, until it leaves PAUSED for READY.
+/// process the first that plays has the device, until it leaves PAUSED for READY. Frames in GPU
+/// memory stay there, unless an overlay is asked for: spidarmotion gets small copies.
 G_DECLARE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST, SPIDAR_FEEL_BIN, GstBin)
 
 G_END_DECLS
