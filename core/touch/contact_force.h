@@ -66,6 +66,11 @@ class ContactForce {
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
 
+  /// After tick(): see EnergyBudget.
+  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    budget_.deliver(given, turn_rad);
+  }
+
   /// Velocity of the grip after the low-pass.
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }
   const Proxy& proxy() const noexcept { return proxy_; }

@@ -38,11 +38,15 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   passed_s = std::max(passed_s, least_s);
   const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(since);
   const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
+  const double left_J = std::max(0.0, left_J_ - dt_s * mean_.force_N.dot(then_m_s));
+  // What is given for it may help a motion that it is against.
   const double out_m_s = then_m_s.dot(direction);
-  const double left_J = std::max(0.0, left_J_ - mean_N_.dot(direction) * dt_s * out_m_s);
+  const double out_if_given_m_s = given_ ? then_m_s.dot(*given_) : out_m_s;
+  const double most_m_s = std::max(out_m_s, out_if_given_m_s);
   const double mass_kg = path.least_mass_kg;
-  const double whole_Ns = mass_kg * (std::sqrt(out_m_s * out_m_s + 2 * left_J / mass_kg) - out_m_s);
-  const double impulse_Ns = whole_Ns - path.lag_s * std::max(0.0, force_N_.dot(direction));
+  const double whole_Ns =
+      mass_kg * (std::sqrt(most_m_s * most_m_s + 2 * left_J / mass_kg) - most_m_s);
+  const double impulse_Ns = whole_Ns - path.lag_s * std::max(0.0, acting_.force_N.dot(direction));
   if (!(impulse_Ns > 0)) return 0;
   const double slew_N_s = path.max_slew_N_s;
   const double tick_s = path.tick_s;
@@ -75,13 +79,28 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   follow(wanted_N + beside_N, limited_N_);
   follow(beside_N, beside_N_);
   dt_s_.add(dt_s);
-  const Eigen::Vector3d own_N = limited_N_ - beside_N_;
-  before_N_ = mean_N_;
+  given_.reset();
+  begun_ = acting_;
+  before_N_ = mean_.force_N;
   // Response of a first-order lag to a force that is held for one tick.
-  const Eigen::Vector3d behind_N = force_N_ - own_N;
-  const double fading = path.lag_s > 0 ? std::exp(-path.tick_s / path.lag_s) : 0;
-  mean_N_ = own_N + behind_N * ((1 - fading) * path.lag_s / path.tick_s);
-  force_N_ = own_N + behind_N * fading;
+  fading_ = path.lag_s > 0 ? std::exp(-path.tick_s / path.lag_s) : 0;
+  lag_ticks_ = path.lag_s / path.tick_s;
+  turned_Nm_ = mean_.torque_Nm;
+  hold({limited_N_ - beside_N_, Eigen::Vector3d::Zero()});
+}
+
+void EnergyBudget::hold(const Wrench& own) noexcept {
+  const Wrench behind = begun_ - own;
+  mean_ = own + (1 - fading_) * lag_ticks_ * behind;
+  acting_ = own + fading_ * behind;
+}
+
+void EnergyBudget::deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+  left_J_ -= turned_Nm_.dot(turn_rad);
+  const double size_N = limited_N_.norm();
+  if (!(size_N > 0) || !beside_N_.isZero(0)) return;
+  if (size_N > kTelling_N) given_ = given.force_N / size_N;
+  hold(given);
 }
 
 }  // namespace spidar::touch

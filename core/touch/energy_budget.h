@@ -4,10 +4,12 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include <Eigen/Core>
 
 #include "core/history.h"
+#include "core/wrench.h"
 
 namespace spidar::touch {
 
@@ -62,26 +64,41 @@ class EnergyBudget {
   void command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,
                const ForcePath& path, double dt_s) noexcept;
 
+  /// Corrects the force of this tick: the device gives `given`, which may be less, point elsewhere
+  /// and have a torque. Without this call it is taken to give what it is told; also beside another
+  /// force, because it cannot be told what is given for which. The grip has turned by `turn_rad`
+  /// since the exchange of the last tick.
+  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
+
   /// Estimated energy absorbed from the hand in this contact and not yet returned.
   double left_J() const noexcept { return left_J_; }
   /// Estimated contact force on the grip.
-  const Eigen::Vector3d& force_N() const noexcept { return force_N_; }
+  const Eigen::Vector3d& force_N() const noexcept { return acting_.force_N; }
 
  private:
+  void hold(const Wrench& own) noexcept;
+
   // Number of ticks, if they are on time, over which the acceleration is measured.
   static constexpr int kSlope = 3;
 
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
+  // A smaller force does not tell where it leads: the steps of a D/A are 5 mN.
+  static constexpr double kTelling_N = 0.05;
   // Short ticks follow one that is late, so that more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
   History<double, kKept> dt_s_;  ///< of the last ticks, in which the velocity changed
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
-  Eigen::Vector3d force_N_ = Eigen::Vector3d::Zero();  ///< on the grip, at the end of the last tick
-  Eigen::Vector3d mean_N_ = Eigen::Vector3d::Zero();   ///< in the last tick, not yet measured
-  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();  ///< in the tick before
+  double fading_ = 0;     ///< of a force that was there before the last tick, in the tick
+  double lag_ticks_ = 0;  ///< the lag, in ticks
+  Wrench begun_;          ///< on the grip, when the last tick began
+  Wrench acting_;         ///< on the grip, at the end of the last tick
+  Wrench mean_;           ///< in the last tick, not yet measured
+  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();   ///< in the tick before
+  Eigen::Vector3d turned_Nm_ = Eigen::Vector3d::Zero();  ///< mean_.torque_Nm of the tick before
+  std::optional<Eigen::Vector3d> given_;  ///< force on the grip for each newton of the contact's
 };
 
 }  // namespace spidar::touch

@@ -108,6 +108,12 @@ class GripMotion {
     return {velocity_.linear_m_s + then.head<3>(), velocity_.angular_rad_s + then.tail<3>()};
   }
 
+  /// The rotation vector: for the small angles of a few ticks, twice the vector part.
+  static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {
+    const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
+    return (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
+  }
+
  private:
   using Six = Eigen::Matrix<double, 6, 1>;
   struct TimedPose {
@@ -125,12 +131,6 @@ class GripMotion {
   /// velocity() within its lag. Turns have the same proportions at the radius of a grip.
   static constexpr double kMax_m_s2 = 90;
   static constexpr double kMax_m_s = 0.3;
-
-  /// The rotation vector: for the small angles of a few ticks, twice the vector part.
-  static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {
-    const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
-    return (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
-  }
 
   History<TimedPose, kPoses> poses_;
   GripVelocity velocity_;

@@ -88,7 +88,7 @@ void HapticLoop::energise() noexcept {
   untrusted_ns_ = 0;
   brake_.reset();
   safety_.reset();
-  exerted_ = {};
+  exerted_ = above_rest_ = {};
   idle_.reset();
 }
 
@@ -149,6 +149,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
     ask_callback(record, passed_ns);
     command(record, step, passed_ns);
     exchange(record, step);
+    count_energy(record);
     vibration_.update(grip_->reading().delivered, 1e-9 * static_cast<double>(passed_ns), now_ns);
     untrusted_ns_ = grip_->reading().knows_pose() ? 0 : untrusted_ns_ + passed_ns;
   }
@@ -303,11 +304,26 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
     late_s_ +=
         fraction_passed(interval_s, kLateness_s) * (std::max(0.0, interval_s - kTick_s) - late_s_);
     unanswered_ns_ = 0;
+    above_rest_ = exerted_ - grip.at_rest;
+    above_rest_.torque_Nm -= power_ * record.commanded.torque_Nm;
     return follow(step.falls_s);
   }
   undo(record);
   ++counters_.exchange_errors;
   if (is_lost(fault) || missing_.is_lost()) lose();
+}
+
+/// Neither a surface nor a passive callback asks for a torque: what is not the film's, the strings
+/// give for want of better ones. A surface takes hold as the force begins: that the strings do not
+/// give all of it yet makes it no softer than it is.
+void HapticLoop::count_energy(const TickRecord& record) noexcept {
+  const Eigen::Vector3d turn_rad = GripMotion::turn_rad(at_, grip_->reading().pose);
+  at_ = grip_->reading().pose;
+  const bool is_alone = record.wanted.force_N == record.contact.force_N;
+  if (record.contact.has_surface && is_alone && safety_.is_ramped()) {
+    touch_.deliver(above_rest_, turn_rad);
+  }
+  if (record.called_back) callback_.deliver(above_rest_, turn_rad);
 }
 
 /// Nobody needs to be protected from a stick that lets go of the hand. However late a tick is, the

@@ -176,6 +176,7 @@ class HapticLoop {
   SafetyLimits braking_limits() const noexcept;
   void command(TickRecord& record, const Step& step, int64_t passed_ns) noexcept;
   void exchange(TickRecord& record, const Step& step) noexcept;
+  void count_energy(const TickRecord& record) noexcept;
   void follow(double passed_s) noexcept;
   void undo(TickRecord& record) noexcept;
   void publish(const TickRecord& record) noexcept;
@@ -194,7 +195,9 @@ class HapticLoop {
   Seqlock<std::array<char, 512>> refusal_{std::array<char, 512>{}};  ///< ends with zeros
   // Loop thread only.
   PlaybackClock clock_;
-  Wrench exerted_;  ///< delivered by the last acknowledged command
+  Wrench exerted_;     ///< delivered by the last acknowledged command
+  Wrench above_rest_;  ///< the part of it that was asked for, but for the torque
+  Pose at_;            ///< after the last exchange
   touch::Rendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};

@@ -55,6 +55,11 @@ class WrenchCallback {
   Wrench call(const CallbackInput& input, const Eigen::Vector3d& beside_N,
               const SafetyLimits& limits) noexcept;
 
+  /// After call(): what the device gives for the sum, see touch::EnergyBudget.
+  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    budget_.deliver(given, turn_rad);
+  }
+
   /// To be called in a tick in which the pose is not known or the loop is closing.
   void rest() noexcept {
     budget_ = {};

@@ -64,6 +64,8 @@ class WrenchLimits {
   void undo() noexcept;
   /// The wrench from which the next apply() continues.
   const Wrench& last() const noexcept { return last_; }
+  /// Whether commands are fresh, and have been for the whole ramp.
+  bool is_ramped() const noexcept { return stale_.fraction() >= 1; }
 
   /// Sets the state to rest, as after construction. The count of rejected wrenches is kept.
   void reset() noexcept;

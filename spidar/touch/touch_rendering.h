@@ -181,6 +181,11 @@ class Rendering {
   /// Sets the other force of the next tick, which shares these limits.
   void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
+  /// After tick(): what the device gives for it and the other force, see touch::EnergyBudget.
+  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    contact_.deliver(given, turn_rad);
+  }
+
   /// A tick without contact, because nothing is playing or the pose of the grip is unknown.
   void rest(Mailbox& mailbox) noexcept;
 

@@ -120,6 +120,47 @@ TEST(EnergyBudget, CountsWhatTheContactAddsToAForceBesideIt) {
   EXPECT_NEAR(rising.force_N().z(), 0, 1e-12) << "0.3 N are let through with and without it";
 }
 
+TEST(EnergyBudget, CountsWhatTheDeviceGives) {
+  touch::ForcePath path;
+  path.lag_s = 0;
+  path.max_slew_N_s = 1e9;
+  const Eigen::Vector3d aside(1, 0, 0);
+  touch::EnergyBudget budget;
+  const auto tick = [&](const Eigen::Vector3d& beside_N, const Wrench& given,
+                        const Eigen::Vector3d& turn_rad = kStill) {
+    budget.command(3 * kUp, beside_N, path, kTick_s);
+    budget.deliver(given, turn_rad);
+  };
+  // Of 3 N, one, and one to the side.
+  for (int n = 0; n < 2; ++n) tick(kNothing, {kUp + aside, kNothing});
+  budget.update(-0.001 * kUp, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 1e-3, 1e-15);
+  budget.update(0.0005 * aside, kStill, 0, 1);
+  EXPECT_NEAR(budget.left_J(), 0.5e-3, 1e-15);
+  // A torque that nobody asked for turns the grip in the tick after.
+  tick(kNothing, {kNothing, 0.01 * kUp});
+  tick(kNothing, {kNothing, kNothing}, 0.02 * kUp);
+  EXPECT_NEAR(budget.left_J(), 0.3e-3, 1e-15);
+  // What is given for a force beside them is not known.
+  tick(2 * kUp, {2.5 * kUp, kNothing});
+  EXPECT_NEAR(budget.force_N().z(), 3, 1e-12);
+}
+
+/// A force down is allowed to a grip that moves up; not if what is given for it goes up, too.
+TEST(EnergyBudget, AllowsNothingThatHelpsTheMotion) {
+  const touch::ForcePath path;
+  touch::EnergyBudget budget;
+  for (int n = 0; n < 100; ++n) {
+    budget.update(kStill, 0.1 * kUp, 0, 0);
+    budget.command(-kUp, kNothing, path, kTick_s);
+    if (n == 50) {
+      EXPECT_GT(budget.most_N(-kUp, path, kTick_s), 1);
+    }
+    if (n > 50) budget.deliver({0.5 * kUp, kNothing}, kStill);
+  }
+  EXPECT_EQ(budget.most_N(-kUp, path, kTick_s), 0);
+}
+
 TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
   // ½ F²/K are left at rest. The bound is above F as long as √(m/K) exceeds lag + tick + F / 2 S:
   // up to 4.2 N at 500 N/m and up to 2.9 N at 800.

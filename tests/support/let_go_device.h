@@ -38,7 +38,8 @@ class LetGoDevice final : public StringDevice {
   void cut(int string) { cut_[static_cast<size_t>(string)] = true; }
   const GripDynamics::State& state() const { return state_; }
   /// That the strings exert on the grip.
-  double string_force_N() const { return held_.string_wrench(state_).force_N.norm(); }
+  Wrench string_wrench() const { return held_.string_wrench(state_); }
+  double string_force_N() const { return string_wrench().force_N.norm(); }
   double speed_m_s() const { return state_.velocity_m_s.norm(); }
 
   void open() override {

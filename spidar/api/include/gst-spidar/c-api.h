@@ -186,8 +186,9 @@ GST_SPIDAR_API bool gst_spidar_device_set_limits(GstSpidarDevice* device, double
                                                  double max_torque_Nm, GstSpidarError* error);
 
 /*! Lets the grip touch a surface, until another one or gst_spidar_device_clear_surface(). Its force
- * is added to what is pushed, and yields no energy. The picture is not needed afterwards. False
- * with GST_SPIDAR_ERROR_LOST when the device takes no surface at present, and with
+ * is added to what is pushed, and yields no energy, except that a surface that appears in front of
+ * the grip lifts it, by 40 mm/s at most. The picture is not needed afterwards. False with
+ * GST_SPIDAR_ERROR_LOST when the device takes no surface at present, and with
  * GST_SPIDAR_ERROR_ARGUMENT when a setting is out of range, or the device takes no force towards
  * the viewer. */
 GST_SPIDAR_API bool gst_spidar_device_set_surface(GstSpidarDevice* device,

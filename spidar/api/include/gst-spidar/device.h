@@ -153,8 +153,8 @@ class GST_SPIDAR_API Device {
   void set_limits(double max_force_N, double max_torque_Nm);
 
   /// Lets the grip touch a surface, until another one or clear_surface(). Its force is added to
-  /// what is pushed, and yields no energy (docs/touch.md). A surface that appears in front of the
-  /// grip lifts it by 40 mm/s at most. `surface.picture` is not needed afterwards.
+  /// what is pushed, and yields no energy (docs/touch.md), except that a surface that appears in
+  /// front of the grip lifts it, by 40 mm/s at most. `surface.picture` is not needed afterwards.
   ///
   /// False when the device takes no surface at present, because it is lost. Throws
   /// std::invalid_argument when a setting is out of range, for a picture that
