@@ -189,6 +189,7 @@ void StringGrip::pull(const GripCommand& command) noexcept {
   } else {
     // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
     // tensions would not have enough time left to fall.
+    if (command.power > 0) tension_command_.begin_fade(acknowledged_N_ / command.power);
     const double pace = watch_.trusted() ? 1 : TensionCommand::kLostPace;
     wanted_N = tension_command_.fade(command.wrench, pace);
   }

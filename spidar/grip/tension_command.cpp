@@ -85,6 +85,7 @@ void TensionCommand::reset() noexcept {
   last_size_N_ = 0;
   fraction_ = 1;
   left_out_ = -1;
+  fades_ = true;
 }
 
 double TensionCommand::pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept {
@@ -111,6 +112,7 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   fraction_ = 1;
   const double size = last_size_N_ = size_N(wrench, problem_.torque_length_m);
   last_N_ = min_N_;
+  fades_ = false;
   if (!(size > 0)) return last_N_;
   problem_.W = W;
   const Wrench at_rest = left_out_ < 0 ? wrench_of(W, min_N_) : Wrench();

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <utility>
 
 #include "core/grip/string_geometry.h"
 #include "core/grip/tension_solver.h"
@@ -154,6 +155,11 @@ class TensionCommand {
   /// as a fraction of the wrench of the last solve(), and returns the tensions to rest by the same
   /// fraction, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
+  /// Before fade(): after a solve(), it begins at the tensions that the strings have. One that has
+  /// not reached the solution yet would rise otherwise.
+  void begin_fade(const StringVector& tension_N) noexcept {
+    if (!std::exchange(fades_, true)) last_N_ = tension_N;
+  }
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
   /// fraction of the wrench that is used grows, its tension decreases from the minimum to zero. At
@@ -192,6 +198,7 @@ class TensionCommand {
   TensionProblem problem_;
   TensionSolver solver_;
   int left_out_ = -1;
+  bool fades_ = true;    ///< since the last solve()
   StringVector last_N_;  ///< of the last solve()
   double last_size_N_ = 0;
   double fraction_ = 1;

@@ -284,6 +284,11 @@ TEST(RandomSafety, ABrakeLetsNoStringPushAtOnce) {
   EXPECT_TRUE(Round("spidar-g-sh", 20'261'188'783'601, false).run(kRoundTicks));
 }
 
+// The pose was lost in a tick that was 3 ms late, while a string still rose: it rose by 3 ms more.
+TEST(RandomSafety, AStringThatRisesStopsWithThePose) {
+  EXPECT_TRUE(Round("spidar-g-sh", 101'000'448, true).run(kRoundTicks));
+}
+
 // One string counted as faulty, and then another instead: the pose went by 4 mm and 20° in a tick,
 // and the damper took that for a grip that flies.
 TEST(RandomSafety, APoseFromOtherStringsIsNoMotion) {
