@@ -18,9 +18,6 @@
 namespace spidar {
 namespace {
 
-/// Area to which a frame is reduced, as nearly as the scales allow.
-constexpr double kArea_px2 = 427.0 * 240.0;
-
 // A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
 // become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
 // ninths.
@@ -111,7 +108,7 @@ FieldScale field_scale(int base_width, int base_height) {
     const double side = 1 / pixels_to_one(scale);
     if (side * std::min(base_width, base_height) < kMinSide_px) continue;
     const double area_px2 = side * side * base_width * base_height;
-    const double distance = std::abs(std::log(area_px2 / kArea_px2));
+    const double distance = std::abs(std::log(area_px2 / kFieldArea_px2));
     if (distance < least) {
       least = distance;
       best = scale;

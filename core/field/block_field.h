@@ -24,7 +24,7 @@ constexpr int kCoarser = 4;
 /// How much smaller the picture of a BlockField is than the base of the pyramid.
 enum class FieldScale { kSame, kTwoThirds, kHalf };
 
-/// The scale, 1, 2/3 or 1/2 of the sides, that brings the picture's area nearest to 427 × 240 px
+/// The scale, 1, 2/3 or 1/2 of the sides, that brings the picture's area nearest to kFieldArea_px2
 /// without making a side shorter than kMinSide_px.
 FieldScale field_scale(int base_width, int base_height);
 

@@ -13,9 +13,6 @@
 namespace spidar {
 namespace {
 
-/// Longer side to which a frame is reduced, as nearly as powers of 2 allow.
-constexpr int kBaseSide_px = 480;
-
 using cv::v_int16x8;
 using cv::v_int32x4;
 using cv::v_uint16x8;
@@ -130,11 +127,11 @@ int reduce_with_vectors(const Reader& reader, const SourceRows& row, uint8_t* to
 }  // namespace
 
 int halving_factor(int width, int height) {
-  const int side = std::max(width, height);
+  const double area_px2 = static_cast<double>(width) * height;
   int factor = 1;
-  // Rounds on a logarithmic scale: the factor doubles when the reduced side reaches √2 ·
-  // kBaseSide_px.
-  while (side * side >= 2 * (factor * kBaseSide_px) * (factor * kBaseSide_px) &&
+  // Rounds on a logarithmic scale: from 3 on, the area is nearer to 2² than to 1.5², by which it
+  // can be reduced further.
+  while (area_px2 >= 3 * kFieldArea_px2 * factor * factor &&
          std::min(width, height) / (2 * factor) >= kMinSide_px) {
     factor *= 2;
   }

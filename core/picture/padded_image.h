@@ -37,8 +37,12 @@ class PaddedImage {
   std::vector<uint8_t> memory_;
 };
 
-/// Power of 2 that reduces the longer side of a picture to about 480 px (340 … 680). It is smaller
-/// if the shorter side would otherwise fall below kMinSide_px.
+/// Area of the picture in which motion is found, as nearly as reductions by powers of 2 and 3/2
+/// allow.
+constexpr double kFieldArea_px2 = 427.0 * 240.0;
+
+/// The largest power of 2 that leaves at least a picture of nearly kFieldArea_px2. It is smaller if
+/// the shorter side would otherwise fall below kMinSide_px.
 int halving_factor(int width, int height);
 
 /// Row step within a block of `factor` rows for reduce_blocks(): every row up to 3, every second
