@@ -44,28 +44,34 @@ PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
 }
 
 /// Shows the picture to the finder, reduced as the analysis has done it if the film is all of it.
-void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns) {
+void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls) {
   const bool is_reduced =
       !by_points() && frame_.place == FilmPlace::whole(picture.width, picture.height);
   if (!is_reduced) {
     reduce_blocks(picture, halving_factor(picture.width, picture.height), whole_);
   }
-  area_finder_.look((is_reduced ? reduced_.base() : whole_).view(), running_ns);
+  area_finder_.look((is_reduced ? reduced_.base() : whole_).view(), running_ns, scrolls);
   frame_.place.is_known = !area_finder_.is_searching();
+  frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
 
 /// Finds what moves, unless the picture waits. Returns whether it does not.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   const PicturePart area = area_of(picture);
   // Of another area, nothing is known that the next frame could be compared with.
-  if (area != frame_.place.area) reset_measuring();
+  if (area != frame_.place.area) {
+    reset_measuring();
+    page_scroll_.reset();
+  }
   frame_.place = {area, picture.width, picture.height};
   const ImageView image = part_of(picture, area);
   const bool may_wait = cadence_.would_wait(running_ns);
   const OpenCvTracker::Result* const tracked =
       by_points() ? &tracker_.track(image, may_wait) : nullptr;
   const Likeness likeness = tracked ? tracked->picture : reduced_.read(image, may_wait);
-  if (settings_.area.kind == AreaSetting::Kind::kAuto) look_for_film(picture, running_ns);
+  if (settings_.area.kind == AreaSetting::Kind::kAuto) {
+    look_for_film(picture, running_ns, page_scroll_.look(image));
+  }
   const bool is_comparable = likeness != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
@@ -146,6 +152,7 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
 
 void MotionAnalyzer::reset() {
   area_finder_.reset();
+  page_scroll_.reset();
   reset_measuring();
   cadence_.reset();
   last_running_ns_.reset();

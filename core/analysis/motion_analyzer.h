@@ -13,6 +13,7 @@
 #include "core/picture/area_finder.h"
 #include "core/picture/image_view.h"
 #include "core/picture/padded_image.h"
+#include "core/picture/page_scroll.h"
 #include "core/picture/reduced_frame.h"
 #include "core/points/tracker.h"
 
@@ -60,12 +61,13 @@ class MotionAnalyzer {
   void take(const Cadence::Step& step);
   bool measure(const ImageView& picture, int64_t running_ns);
   PicturePart area_of(const ImageView& picture);
-  void look_for_film(const ImageView& picture, int64_t running_ns);
+  void look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls);
   bool find_mean(const OpenCvTracker::Result& tracked);
   void reset_measuring();
 
   AnalyzerSettings settings_;
   AreaFinder area_finder_;
+  PageScroll page_scroll_;
   PaddedImage whole_;  ///< the reduced picture, where the film is a part of it
   ReducedFrame reduced_;
   OpenCvTracker tracker_;   ///< for MotionKind::kMean

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/picture/opencv.h"
+#include "core/picture/repeated_picture.h"
 
 namespace spidar {
 namespace {
@@ -20,23 +21,17 @@ constexpr uint8_t kChanged_grey = 3;
 /// at most kMaxLevel pictures without a change, its changes are forgotten.
 constexpr uint8_t kRise = 8;
 constexpr uint8_t kLasts = 2 * kRise - 2;
-constexpr uint8_t kMaxLevel = 24;
+constexpr uint8_t kMaxLevel = 3 * kRise;
 /// What changes between the first two pictures may be lasting.
 constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
-
-/// A picture is a repeated one if fewer pixels change in it than this fraction of those that change
-/// lastingly; more than so many in a row are none (RepeatedPicture::kMaxAtOnce).
-constexpr double kOfRepeated = 0.25;
-constexpr int kMaxSkipped = 2;
 
 constexpr int kAreaCell_px = 8;
 /// Lasting pixels of a cell that has them: one line of it.
 constexpr int kLineOfCell = kAreaCell_px;
 
-/// A side is straight if so much of what begins near it begins within two lines of pixels, and that
-/// is so much of its length. The sides of a disc of 80 px have 0.2 and 0.3.
-constexpr double kBeginsTogether = 0.4;
-constexpr double kOfLength = 0.3;
+/// A side is straight if on so much of its length what changes begins within two lines of pixels.
+/// The sides of a disc of 80 px have 0.2 and 0.3.
+constexpr double kStraight = 0.4;
 /// Two cells, of which the outer one may have a line only.
 constexpr int kNear_px = 2 * kAreaCell_px;
 /// So much of what begins at a side must have changed in the newest picture, too: where an object
@@ -46,12 +41,18 @@ constexpr double kStillChanges = 0.1;
 /// change.
 constexpr double kSmallest = 0.15;
 constexpr double kFilled = 0.4;
-/// A side is crossed if so much of what is beside it changes: more than what covers a part of it.
-constexpr double kCrossed = 0.6;
-/// How far beside a side that is looked for: behind a pixel that shows a part of the film.
-constexpr int kBeside_px = 2;
+/// A side is crossed if most of what is beside it changes, and all of a page is another film if
+/// most of it changes at once.
+constexpr double kMost = 0.5;
+/// A film goes on while something changes in so much of what changes in another rectangle: an
+/// object in a third of the width and height of a film of that size.
+constexpr int kPartsThatGoOn = 9;
+/// The widest bar beside a film, as a fraction of the picture: of 4:3 in 16:9.
+constexpr double kMaxBar = 0.125;
 /// By how much a side may seem to move while it stays.
 constexpr int kStaysWithin_px = 1;
+/// How far beside a side it is looked for what crosses it.
+constexpr int kBeside_px = kStaysWithin_px + 1;
 
 bool is_same(int a, int b) {
   return std::abs(a - b) <= kStaysWithin_px;
@@ -70,8 +71,26 @@ bool contains(const PicturePart& outer, const PicturePart& inner) {
          inner.y + inner.height <= outer.y + outer.height + kStaysWithin_px;
 }
 
+/// Whether the analysis leaves out by itself what has such widths at two opposite sides (Margins).
+bool are_bars(int one, int other, int across) {
+  return std::abs(one - other) <= kAreaCell_px && std::max(one, other) <= kMaxBar * across;
+}
+
 bool is_same(const PicturePart& a, const PicturePart& b) {
   return contains(a, b) && contains(b, a);
+}
+
+/// Whether most cells at each of the four sides of the picture change: all of it is the film.
+bool reach_all_borders(const std::vector<uint8_t>& cells, int columns, int rows) {
+  const auto reach = [&](int first, int step, int count) {
+    int lasting = 0;
+    for (int i = 0; i < count; ++i) {
+      lasting += cells[static_cast<size_t>(first + i * step)] >= kLineOfCell;
+    }
+    return lasting > kMost * count;
+  };
+  return reach(0, 1, columns) && reach((rows - 1) * columns, 1, columns) &&
+         reach(0, columns, rows) && reach(columns - 1, columns, rows);
 }
 
 }  // namespace
@@ -88,8 +107,9 @@ void AreaFinder::begin(const ImageView& picture) {
   rows_ = (height_ + kAreaCell_px - 1) / kAreaCell_px;
   cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
   open_.reserve(cells_.size());
-  begins_ = false;
-  stayed_ = crossed_ = lasting_pixels_ = skipped_ = 0;
+  begins_ = is_page_ = skips_ = false;
+  stayed_ = crossed_ = lasting_pixels_ = 0;
+  skipped_ = 0;
   area_.reset();
   searches_since_ns_.reset();
 }
@@ -100,32 +120,44 @@ bool AreaFinder::take(const ImageView& picture) {
   const v_uint8x16 zero = cv::v_setzero_u8(), one = cv::v_setall_u8(1);
   const v_uint8x16 rise = cv::v_setall_u8(compared_ == 0 ? kFirstRise : kRise);
   const v_uint8x16 most = cv::v_setall_u8(kMaxLevel), lasts = cv::v_setall_u8(kLasts);
-  const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey);
-  DifferenceSum changes;
+  const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey + 1);
+  int changes = 0;
+  // Bytes that are stored may be anything, members of this object among them, but not these.
+  uint8_t* const before = before_.data();
+  uint8_t* const changed_now = changed_.data();
+  uint8_t* const levels = lasting_.data();
+  const int width = width_, stride = stride_;
+  const ptrdiff_t next = picture.stride_bytes;
   alignas(16) uint8_t sixteen[16];
   const int lasting_before = std::exchange(lasting_pixels_, 0);
   for (int row = 0; row < rows_; ++row) {
     const int below = std::min((row + 1) * kAreaCell_px, height_);
-    for (int x = 0; x < width_; x += 16) {
-      v_uint8x16 lasting = zero;  // lines of the cells, for each column of pixels
+    for (int x = 0; x < width; x += 16) {
+      v_uint8x16 changing = zero, lasting = zero;  // lines of the cells, for each column of pixels
+      const uint8_t* from = picture.at(x, row * kAreaCell_px);
+      ptrdiff_t at = row * kAreaCell_px * stride + x;
       for (int y = row * kAreaCell_px; y < below; ++y) {
-        const uint8_t* from = picture.at(x, y);
-        if (x + 16 > width_) {
+        const uint8_t* pixels = from;
+        if (x + 16 > width) {
           std::memset(sixteen, 0, sizeof sixteen);
-          std::memcpy(sixteen, from, static_cast<size_t>(width_ - x));
-          from = sixteen;
+          std::memcpy(sixteen, from, static_cast<size_t>(width - x));
+          pixels = sixteen;
         }
-        const auto at = static_cast<size_t>(y * stride_ + x);
-        const v_uint8x16 now = cv::v_load(from);
-        const v_uint8x16 changed = cv::v_absdiff(now, cv::v_load(&before_[at])) > grey;
-        const v_uint8x16 had = cv::v_load(&lasting_[at]) - one;  // not below 0
+        const v_uint8x16 now = cv::v_load(pixels);
+        const v_uint8x16 changed = cv::v_absdiff(now, cv::v_load(before + at)) >= grey;
+        const v_uint8x16 had = cv::v_load(levels + at) - one;  // not below 0
         const v_uint8x16 has = cv::v_min(had + (changed & rise), most);
-        cv::v_store(&before_[at], now);
-        cv::v_store(&changed_[at], changed);
-        cv::v_store(&lasting_[at], has);
-        changes.add(changed & one, zero);
-        lasting = lasting + ((has >= lasts) & one);
+        cv::v_store(before + at, now);
+        cv::v_store(changed_now + at, changed);
+        cv::v_store(levels + at, has);
+        // What is true is 255, which is −1.
+        changing = cv::v_sub_wrap(changing, changed);
+        lasting = cv::v_sub_wrap(lasting, has >= lasts);
+        from += next;
+        at += stride;
       }
+      cv::v_store(sixteen, changing);
+      changes += sum_of_8(sixteen) + sum_of_8(sixteen + kAreaCell_px);
       cv::v_store(sixteen, lasting);
       for (int k = 0; k < 2 && x / kAreaCell_px + k < columns_; ++k) {
         const int count = sum_of_8(sixteen + k * kAreaCell_px);
@@ -135,10 +167,12 @@ bool AreaFinder::take(const ImageView& picture) {
       }
     }
   }
-  if (changes.total() == 0) return false;
+  if (changes == 0) return false;
   ++compared_;
+  if (changes > kMost * width_ * height_) is_page_ = false;
   // Of a picture that is shown again, an encoder changes little of what changes otherwise.
-  const bool repeats = changes.total() < kOfRepeated * lasting_before && skipped_ < kMaxSkipped;
+  const bool repeats = changes < double{RepeatedPicture::kFraction} * lasting_before &&
+                       skipped_ < RepeatedPicture::kMaxAtOnce;
   skipped_ = repeats ? skipped_ + 1 : 0;
   return !repeats;
 }
@@ -189,14 +223,12 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
   const int from = std::clamp(outside - kStaysWithin_px * step, 0, across - 1);
   const ptrdiff_t inwards = is_column ? step : step * stride_;
   std::array<int, kNear_px + 1> begins{};
-  int all = 0;
   for (int k = begin; k < begin + length; ++k) {
     const int x = is_column ? from : k, y = is_column ? k : from;
     const uint8_t* at = &lasting_[static_cast<size_t>(y * stride_ + x)];
     for (size_t i = 0; i < begins.size(); ++i, at += inwards) {
       if (at[0] < kLasts || at[inwards] < kLasts) continue;
       ++begins[i];
-      ++all;
       break;
     }
   }
@@ -217,13 +249,12 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
     const uint8_t* const now = &changed_[static_cast<size_t>(y * stride_ + x)];
     changed += (now[0] | now[inwards]) != 0;
   }
-  side.is_straight = together >= kBeginsTogether * all && together >= kOfLength * length &&
-                     changed >= kStillChanges * together;
+  side.is_straight = together >= kStraight * length && changed >= kStillChanges * together;
   return side;
 }
 
-/// Whether what changes is a rectangle that is not all of the picture. At most one of its sides may
-/// not show, as below a sky.
+/// Whether what changes is a rectangle that is neither all of the picture nor all between two bars.
+/// At most one of its sides may not show, as below a sky.
 bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   // side_of() looks inwards.
   if (candidate.part.width <= 2 * kNear_px || candidate.part.height <= 2 * kNear_px) return false;
@@ -236,6 +267,12 @@ bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   }
   if (straight < 2 || inside - straight > (straight >= 3 ? 1 : 0)) return false;
   const auto& [left, right, top, bottom] = candidate.sides;
+  if (are_bars(left.at, width_ - 1 - right.at, width_) && top.is_border && bottom.is_border) {
+    return false;
+  }
+  if (are_bars(top.at, height_ - 1 - bottom.at, height_) && left.is_border && right.is_border) {
+    return false;
+  }
   const int x = left.is_border ? 0 : left.at, y = top.is_border ? 0 : top.at;
   candidate.part = {x, y, (right.is_border ? width_ : right.at + 1) - x,
                     (bottom.is_border ? height_ : bottom.at + 1) - y};
@@ -245,6 +282,7 @@ bool AreaFinder::has_straight_sides(Candidate& candidate) const {
 /// The rectangle in which most changes.
 std::optional<AreaFinder::Candidate> AreaFinder::best_candidate() {
   std::optional<Candidate> best;
+  if (reach_all_borders(cells_, columns_, rows_)) return best;
   for (size_t i = 0; i < cells_.size(); ++i) {
     if (cells_[i] < kLineOfCell) continue;
     Candidate candidate;
@@ -284,7 +322,7 @@ int AreaFinder::crossed_sides(const std::vector<uint8_t>& map, uint8_t least) co
     for (int k = begin; k < begin + length; ++k) {
       reached += map[static_cast<size_t>(is_column ? k * stride_ + at : at * stride_ + k)] >= least;
     }
-    crossed += reached > kCrossed * length;
+    crossed += reached > kMost * length;
   }
   return crossed;
 }
@@ -319,7 +357,7 @@ void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confi
   const bool is_part = contains(*area_, candidate->part);
   const int others = lasting_cells(candidate->part);
   const int own = lasting_cells(*area_) - (is_part ? others : 0);
-  if (contains(candidate->part, *area_) || 8 * own > others) active_ns_ = running_ns;
+  if (contains(candidate->part, *area_) || kPartsThatGoOn * own > others) active_ns_ = running_ns;
   if (is_confirmed && running_ns - active_ns_ >= (is_part ? kSearch_ns : kRests_ns)) {
     area_ = candidate->part;
     sides_ = candidate->sides;
@@ -327,7 +365,7 @@ void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confi
   }
 }
 
-void AreaFinder::look(const ImageView& picture, int64_t running_ns) {
+void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls) {
   if (picture.width != width_ || picture.height != height_) {
     begin(picture);
     take(picture);
@@ -335,14 +373,22 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns) {
     compared_ = 0;
     return;
   }
-  if (!take(picture)) return;
+  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || stayed_ > 0;
+  skips_ = !expects && !area_ && !scrolls && !skips_;
+  if (skips_) return;
+  const bool shows_other = take(picture);
+  if (scrolls) {
+    search(running_ns);
+    is_page_ = true;
+  }
+  if (!shows_other || scrolls) return;
   if (area_ && crossed_sides(changed_, 255) > crossed_sides(lasting_, kLasts)) search(running_ns);
   if (area_) {
     crossed_ = crossed_sides(lasting_, kLasts) >= 2 ? crossed_ + 1 : 0;
     if (crossed_ >= kStays) area_.reset();
   }
-  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || (!area_ && stayed_ > 0);
-  if (!expects && compared_ % kStays != 0) return;
+  const bool is_due = compared_ <= 2 * kStays || searches_since_ns_ || (!area_ && stayed_ > 0);
+  if (!is_due && compared_ % kStays != 0) return;
   const std::optional<Candidate> candidate = best_candidate();
   if (!candidate) stayed_ = 0;
   const bool is_confirmed = candidate && confirm(*candidate);
@@ -358,7 +404,8 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns) {
     active_ns_ = running_ns;
     crossed_ = 0;
     searches_since_ns_.reset();
-  } else if (has_searched) {
+    is_page_ = false;
+  } else if (has_searched && !is_page_) {
     searches_since_ns_.reset();
   }
   begins_ = !area_ && compared_ <= 2 * kStays && stayed_ > 0;

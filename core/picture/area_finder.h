@@ -24,26 +24,29 @@ namespace spidar {
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
 /// is therefore kept until something crosses its sides: another film, or a page that moves. Then
 /// the film is looked for anew, for up to kSearch_ns; if none is found, it is all of the picture.
+/// After a page has scrolled, there is no film until one is found, or most of the picture changes.
 ///
 /// For one thread at a time. Allocates only when the size changes.
 class AreaFinder {
  public:
   /// Takes the next picture, reduced to 8 bits; one that shows the previous one again changes
-  /// nothing.
-  void look(const ImageView& picture, int64_t running_ns);
+  /// nothing. `scrolls`: it is the previous one, scrolled.
+  void look(const ImageView& picture, int64_t running_ns, bool scrolls = false);
 
   /// Px of the reduced picture; nothing: the film is all of it.
   const std::optional<PicturePart>& area() const { return area_; }
   /// It is not known where the film is: what is around it moves, or has just changed, or the first
   /// pictures show a rectangle.
   bool is_searching() const { return begins_ || searches_since_ns_.has_value(); }
+  /// It searches in a page.
+  bool is_page() const { return is_page_; }
 
   /// Another film begins.
   void reset() {
     width_ = 0;
     area_.reset();
     searches_since_ns_.reset();
-    begins_ = false;
+    begins_ = is_page_ = false;
   }
 
   /// How many pictures a rectangle must stay before it is believed. An object that is a rectangle
@@ -87,7 +90,9 @@ class AreaFinder {
   int compared_ = 0;              ///< pictures that have changed
   bool begins_ = false;
   int lasting_pixels_ = 0;
-  int skipped_ = 0;  ///< repeated pictures in a row
+  size_t skipped_ = 0;  ///< repeated pictures in a row
+  bool skips_ = false;  ///< the last picture was not looked at
+  bool is_page_ = false;
   int columns_ = 0;
   int rows_ = 0;
   std::vector<uint8_t> cells_;  ///< number of lasting pixels in each

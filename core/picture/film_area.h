@@ -41,12 +41,14 @@ struct FilmPlace {
   int picture_width = 0;
   int picture_height = 0;
   bool is_known = true;  ///< false while AreaFinder searches: nothing is measured
+  bool is_page = false;  ///< that is searched, and has scrolled
 
   static FilmPlace whole(int width, int height) { return {{0, 0, width, height}, width, height}; }
 
   bool operator==(const FilmPlace& other) const {
     return area == other.area && picture_width == other.picture_width &&
-           picture_height == other.picture_height && is_known == other.is_known;
+           picture_height == other.picture_height && is_known == other.is_known &&
+           is_page == other.is_page;
   }
   /// Converts a position in the picture, where (0, 0) is the top left corner and (1, 1) the bottom
   /// right one, to px from the middle of the film.

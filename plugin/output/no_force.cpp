@@ -51,6 +51,10 @@ constexpr Wording kWordings[] = {
     {"area-unknown",
      "What is around the film moves, or has just changed: it is not known where the film is. With "
      "area=whole, all of the picture is the film."},
+    {"no-film",
+     "There is no film in the picture: it shows a page that has scrolled, and nothing in it "
+     "changes as "
+     "a film does. With area=whole, all of the picture is the film."},
     {"camera-unknown",
      "How the camera moves cannot be told: no motion explains more than a small part of the "
      "picture. What moves against the background is therefore unknown, too."},
@@ -137,7 +141,9 @@ std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept {
 }
 
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
-  if (!frame.place.is_known) return NoForceReason::kAreaUnknown;
+  if (!frame.place.is_known) {
+    return frame.place.is_page ? NoForceReason::kNoFilm : NoForceReason::kAreaUnknown;
+  }
   if (frame.picture == Likeness::kFirst) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;

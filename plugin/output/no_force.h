@@ -39,6 +39,7 @@ enum class NoForceReason {
   kTooFewPoints,
   kNotChosen,
   kAreaUnknown,
+  kNoFilm,
   kCameraUnknown,
   kCameraOnly,
   kObjectsOnly,

@@ -17,7 +17,8 @@ namespace {
 constexpr int64_t kBrief_ns = 2'000'000'000;
 
 /// Reasons in `stats`.
-constexpr const char *kUnknown = "area-unknown", *kResting = "repeated-frames";
+constexpr const char *kUnknown = "area-unknown", *kNoFilm = "no-film",
+                     *kResting = "repeated-frames";
 
 std::string text_in(const GstStructure* structure, const char* name) {
   const char* const text = gst_structure_get_string(structure, name);
@@ -91,7 +92,8 @@ std::string FeltScreen::words_for_film(const GstStructure* stats) const {
   guint x = 0, y = 0, film_width = 0, film_height = 0;
   gst_structure_get(stats, "area-x", G_TYPE_UINT, &x, "area-y", G_TYPE_UINT, &y, "area-width",
                     G_TYPE_UINT, &film_width, "area-height", G_TYPE_UINT, &film_height, nullptr);
-  if (width == 0 || film_width == 0 || text_in(stats, "no-force-reason") == kUnknown) return "";
+  const std::string reason = text_in(stats, "no-force-reason");
+  if (width == 0 || film_width == 0 || reason == kUnknown || reason == kNoFilm) return "";
   const bool is_all =
       static_cast<guint>(width) == film_width && static_cast<guint>(height) == film_height;
   const std::string size = std::to_string(film_width) + " x " + std::to_string(film_height);

@@ -164,7 +164,7 @@ void expect_whole(const Seen& seen, const std::string& what) {
 const Part kMiddle{90, 50, 240, 135};
 const Part kPlaces[] = {
     kMiddle,           {0, 0, 256, 144},  {427 - 171, 240 - 96, 171, 96}, {40, 30, 340, 190},
-    {0, 30, 427, 180}, {100, 0, 200, 240}};
+    {0, 50, 427, 160}, {100, 0, 200, 240}};
 
 TEST(AreaFinder, FindsAFilmWhoseCameraMovesInWhateverRests) {
   const std::vector<std::pair<const char*, Scene>> frames{
@@ -198,6 +198,8 @@ TEST(AreaFinder, TakesAWholeFilmForAllOfThePicture) {
       {"nothing", at_rest(pan)},
       {"cut", then(20, disc, pan)},
       {"cut to rest", then(20, pan, disc)},
+      {"between bars, which the analysis knows",
+       within([](int, double, double) { return 16.0; }, {0, 29, 427, 182}, pan)},
       {"below a plain sky",
        [](int n, double x, double y) { return y < 100 ? 200.0 : pan(n, x, y); }},
       {"hills",
@@ -212,6 +214,51 @@ TEST(AreaFinder, TakesAWholeFilmForAllOfThePicture) {
   for (const auto& [name, film] : films) {
     expect_whole(see(film, 3 * kRate), name);
     expect_whole(see(film, 2 * kRate, 1), std::string(name) + ", noise");
+  }
+}
+
+TEST(AreaFinder, KnowsWhatElseScreensShow) {
+  const Part map{340, 10, 80, 60}, bar{0, 212, 427, 28}, inset{300, 150, 110, 70};
+  const auto other_pan = [](int n, double x, double y) { return kOther.at(x - 1.8 * n, y + n); };
+  const auto slides = [](int n, double x, double y) { return page(0, x + 41 * (n / 15), y); };
+  const auto terminal = [](int n, double x, double y) {
+    const int lines = n / 3, scrolled = std::max(lines - 20, 0);
+    return y < 8 * std::min(lines, 20) ? page(0, x, y + 8 * scrolled) : 240;
+  };
+  /// Of one colour, before a background of which no pixel ever changes; the sky passes.
+  const auto cartoon = [](int n, double x, double y) {
+    if (std::hypot(x - 60 - 3.0 * (n % 40), y - 90) < 20) return 90.0;
+    return y < 40 ? kOther.at(x + n, y) : kWall.at(x, y);
+  };
+  const struct {
+    const char* name;
+    Scene scene;
+    std::optional<Part> film;
+  } cases[] = {
+      {"slides", slides, {}},
+      {"a speaker before slides", within(slides, inset, other_pan), inset},
+      {"a terminal", terminal, {}},
+      {"a game with a map and a bar", within(within(pan, map, page), bar, page), {}},
+      {"a game in a window", within(page, kMiddle, within(pan, {10, 100, 220, 30}, page)), kMiddle},
+      {"a cartoon", cartoon, {}},
+      {"a cartoon that pans by whole pixels",
+       within(page, kMiddle, [&](int n, double x, double y) { return cartoon(0, x + 2 * n, y); }),
+       kMiddle},
+      {"a picture in a picture", within(pan, inset, other_pan), {}},
+      {"one at rest", within(pan, inset, page), {}},
+      {"one in a picture at rest", within(page, inset, other_pan), inset},
+      {"two films", within(within(page, {10, 20, 150, 90}, other_pan), {180, 60, 230, 140}, pan),
+       Part{180, 60, 230, 140}}};
+  for (const auto& [name, scene, film] : cases) {
+    const Seen seen = see(scene, 3 * kRate);
+    if (film) {
+      // Anew when what is around it has changed, and nothing else.
+      EXPECT_LE(seen.first(), size_t{kRate}) << name;
+      EXPECT_TRUE(is_near(seen.area.back(), *film)) << name;
+      for (const std::optional<Part>& area : seen.area) EXPECT_TRUE(!area || is_near(area, *film));
+    } else {
+      expect_whole(seen, name);
+    }
   }
 }
 

@@ -60,6 +60,14 @@ TEST(NoForceReason, OfARuleThatFeelsNothingIsTheRule) {
       << "it rests";
 }
 
+TEST(NoForceReason, WhereTheFilmIsNotKnownIsThatOrThatThereIsNone) {
+  Frame frame = unfelt();
+  frame.place.is_known = false;
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kAreaUnknown);
+  frame.place.is_page = true;
+  EXPECT_EQ(reason_in_frame(frame, MotionKind::kObject), NoForceReason::kNoFilm);
+}
+
 TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
   Background background;
   background.coverage = 0;

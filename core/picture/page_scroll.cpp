@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "core/picture/page_scroll.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace spidar {
+namespace {
+
+/// How many lines of its place a patch is looked for in: lines of text are less far apart.
+constexpr int kDetailWithin_px = 32;
+/// How many of the patches that have changed are looked for. In a page whose films have half of
+/// the patches, one of 64 scrolled pictures has all of them in films.
+constexpr int kTries = 6;
+/// So many patches must have scrolled, an eighth of all, in columns or rows with no other ones that
+/// have changed: fewer may be an object in a film that has neither noise nor been coded. Of a film
+/// that was coded, whole columns are seldom exactly what they were elsewhere.
+constexpr int kMinScrolled = 8;
+/// The largest step, as a fraction of the height: by more, the analysis does not follow either, and
+/// takes the picture for a cut.
+constexpr int kHeightsOfStep = 4;
+
+uint64_t begin_of(const uint8_t* line) {
+  uint64_t begin;
+  std::memcpy(&begin, line, sizeof begin);
+  return begin;
+}
+
+}  // namespace
+
+void PageScroll::keep(const ImageView& picture) {
+  width_ = picture.width;
+  height_ = picture.height;
+  bytes_ = picture.sample.bytes;
+  size_t i = 0;
+  for (int row = 0; row < kDown; ++row) {
+    const int top = row * height_ / kDown;
+    const int below = std::min({(row + 1) * height_ / kDown, top + kDetailWithin_px, height_ - 1});
+    for (int column = 0; column < kAcross; ++column) {
+      Patch& patch = patches_[i++];
+      patch.has_detail = false;
+      patch.x = std::min((2 * column + 1) * width_ / (2 * kAcross), width_ - kPatch_bytes);
+      for (patch.y = top; patch.y < below && !patch.has_detail; ++patch.y) {
+        patch.has_detail = std::memcmp(picture.at(patch.x, patch.y),
+                                       picture.at(patch.x, patch.y + 1), kPatch_bytes) != 0;
+      }
+      if (!patch.has_detail) continue;
+      --patch.y;
+      std::memcpy(patch.upper.data(), picture.at(patch.x, patch.y), kPatch_bytes);
+      std::memcpy(patch.lower.data(), picture.at(patch.x, patch.y + 1), kPatch_bytes);
+    }
+  }
+}
+
+bool PageScroll::compare(const ImageView& picture) {
+  std::array<const Patch*, kAcross * kDown> changed;
+  int count = 0;
+  const auto is_at = [&](const Patch& patch, int y) {
+    return y >= 0 && y + 1 < height_ &&
+           std::memcmp(patch.upper.data(), picture.at(patch.x, y), kPatch_bytes) == 0 &&
+           std::memcmp(patch.lower.data(), picture.at(patch.x, y + 1), kPatch_bytes) == 0;
+  };
+  for (const Patch& patch : patches_) {
+    if (patch.has_detail && !is_at(patch, patch.y)) changed[static_cast<size_t>(count++)] = &patch;
+  }
+  if (count < kMinScrolled) return false;
+  const auto scrolls = [&](int step) {
+    std::array<int, kAcross> in_column{};
+    std::array<int, kDown> in_row{};
+    std::array<bool, kAcross> column_differs{};
+    std::array<bool, kDown> row_differs{};
+    for (int i = 0; i < count; ++i) {
+      const Patch& patch = *changed[static_cast<size_t>(i)];
+      const int y = patch.y + step;
+      if (y < 0 || y + 1 >= height_) continue;
+      const auto at = static_cast<size_t>(&patch - patches_.data());
+      const size_t column = at % kAcross, row = at / kAcross;
+      const bool is_found = is_at(patch, y);
+      in_column[column] += is_found;
+      in_row[row] += is_found;
+      column_differs[column] |= !is_found;
+      row_differs[row] |= !is_found;
+    }
+    const auto sum = [](const auto& found, const auto& differs) {
+      int all = 0;
+      for (size_t i = 0; i < found.size(); ++i) all += differs[i] ? 0 : found[i];
+      return all;
+    };
+    return std::max(sum(in_column, column_differs), sum(in_row, row_differs)) >= kMinScrolled;
+  };
+  for (int k = 0; k < kTries; ++k) {
+    const Patch& patch = *changed[static_cast<size_t>((2 * k + 1) * count / (2 * kTries))];
+    const uint64_t begin = begin_of(patch.upper.data());
+    const int reach = height_ / kHeightsOfStep;
+    const int last = std::min(patch.y + reach, height_ - 2);
+    for (int y = std::max(patch.y - reach, 0); y <= last; ++y) {
+      if (begin_of(picture.at(patch.x, y)) != begin) continue;
+      if (y != patch.y && is_at(patch, y) && scrolls(y - patch.y)) return true;
+    }
+  }
+  return false;
+}
+
+bool PageScroll::look(const ImageView& picture) {
+  const bool is_comparable =
+      picture.width == width_ && picture.height == height_ && picture.sample.bytes == bytes_;
+  const bool scrolls = is_comparable && compare(picture);
+  keep(picture);
+  return scrolls;
+}
+
+}  // namespace spidar

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Tells a page that scrolls from a camera that moves.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "core/picture/image_view.h"
+
+namespace spidar {
+
+/// A page scrolls up or down by whole pixels, and what it shows stays the same to the last bit. In
+/// a film, noise and coding change what moves. A few patches therefore show it: a page scrolls when
+/// all that have changed in some columns or rows of them are found again, unchanged and as far
+/// away. For one thread at a time; does not allocate.
+class PageScroll {
+ public:
+  /// Whether the picture shows the previous one scrolled. One of another size or format shows
+  /// nothing.
+  bool look(const ImageView& picture);
+  /// The next picture is not compared with this one.
+  void reset() { width_ = 0; }
+
+ private:
+  static constexpr int kAcross = 8, kDown = 8;
+  static constexpr int kPatch_bytes = 16;
+  /// The beginning of two lines.
+  struct Patch {
+    int x = 0, y = 0;
+    bool has_detail = false;  ///< the second line differs from the first one
+    std::array<uint8_t, kPatch_bytes> upper, lower;
+  };
+
+  bool compare(const ImageView& picture);
+  void keep(const ImageView& picture);
+
+  int width_ = 0, height_ = 0;
+  int bytes_ = 0;  ///< of a pixel
+  std::array<Patch, size_t{kAcross} * kDown> patches_;
+};
+
+}  // namespace spidar
