@@ -109,13 +109,10 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
                                SimulatedDevice*& simulated) {
   simulated = nullptr;
   if (spec != "sim") return make_grip(spec, profile);
-  std::unique_ptr<StringDevice> device;
-  if (threaded) {
-    device = make_device(spec, profile);
-  } else {
-    device = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
-  }
-  simulated = dynamic_cast<SimulatedDevice*>(device.get());
+  auto device = threaded
+                    ? make_simulation(profile)
+                    : std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
+  simulated = device.get();
   return std::make_unique<StringGrip>(profile, std::move(device));
 }
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "spidar/devices/device_registry.h"
-#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/devices/usb_search.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/link/force_grip.h"
@@ -126,12 +125,7 @@ std::unique_ptr<Link> usb_link(const std::string& text, const std::string& id,
 
 MadeDevice make(const std::string& text, const Profile& profile, const boards::Settings& settings) {
   if (text == "sim") {
-    return {simulating(text, profile,
-                       [&] {
-                         return std::make_unique<SimulatedDevice>(
-                             profile, SimulatedDevice::Time::kClock, grip_model_of(profile));
-                       }),
-            nullptr};
+    return {make_simulation(profile), nullptr};
   }
   const DeviceName name(text);
   if (name.device == "sim" && name.has_end) {
@@ -179,6 +173,13 @@ boards::Settings settings_of_simulation() {
   settings.guardian = false;
   settings.threaded = false;
   return settings;
+}
+
+std::unique_ptr<SimulatedDevice> make_simulation(const Profile& profile) {
+  return simulating("sim", profile, [&] {
+    return std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kClock,
+                                             grip_model_of(profile));
+  });
 }
 
 std::unique_ptr<StringDevice> make_device(const std::string& text, const Profile& profile,

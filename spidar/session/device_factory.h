@@ -7,6 +7,7 @@
 #include <string>
 
 #include "spidar/device.h"
+#include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/link/board.h"
 #include "spidar/profiles/profile.h"
@@ -35,6 +36,9 @@ bool is_simulated(const std::string& spec);
 /// fewer than six. "none" is not a device, because it needs no loop.
 std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
                                 const boards::Settings& settings = {});
+
+/// Makes the device "sim". Throws DeviceError as above.
+std::unique_ptr<SimulatedDevice> make_simulation(const Profile& profile);
 
 /// Makes a device that takes volts and gives counts of the strings. Throws DeviceError as above,
 /// and for a device that takes a force, which has no strings.
