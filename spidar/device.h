@@ -113,7 +113,7 @@ struct DeviceReading {
   int64_t read_ns = 0;  ///< time of reading, CLOCK_MONOTONIC; 0: unknown, the tick's
 };
 
-/// The common interface of a board, a device and a grip. One thread at a time, except where stated.
+/// The common interface of a device and a grip. One thread at a time, except where stated.
 class Openable {
  public:
   /// `name` is for messages: "sim", "usb:1-2", …

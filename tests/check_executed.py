@@ -15,9 +15,6 @@ LAYERS = ("core", "plugin", "spidar")
 # Sources of which no test executes a function in the build of CI with the address sanitizer, and why.
 INLINED = "has only functions that Clang puts into devices(), which is executed"
 EXCUSED = {
-    "spidar/devices/cyverse/kind.cpp": INLINED,
-    "spidar/devices/falcon/kind.cpp": INLINED,
-    "spidar/devices/mouse/kind.cpp": INLINED,
     "spidar/devices/sound/missing_alsa.cpp": "ALSA is in this build",
     "spidar/devices/usb_kinds.cpp": INLINED,
     "spidar/transports/missing_websockets.cpp": "libwebsockets is in this build",

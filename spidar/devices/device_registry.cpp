@@ -5,18 +5,24 @@
 #include <algorithm>
 #include <memory>
 
+#include "spidar/devices/rooms.h"
 #include "spidar/link/emulated_transport.h"
 
 namespace spidar {
+
+// Of each room: the function that returns its kinds. Meson makes rooms.h: ROOM(uart) ROOM(sound) …
+#define ROOM(name) std::vector<DeviceKind> name##_kinds();
+SPIDAR_ROOMS
+#undef ROOM
 
 namespace {
 
 std::vector<DeviceKind> all_kinds() {
   std::vector<DeviceKind> kinds;
-  for (const auto& of_file :
-       {force_feedback_kinds, inverse3_kinds, usb_kinds, uart_kinds, sound_kinds}) {
-    for (DeviceKind& kind : of_file()) kinds.push_back(kind);
-  }
+#define ROOM(name) \
+  for (DeviceKind & kind : name##_kinds()) kinds.push_back(kind);
+  SPIDAR_ROOMS
+#undef ROOM
   std::stable_partition(kinds.begin(), kinds.end(),
                         [](const DeviceKind& kind) { return kind.has_strings(); });
   return kinds;
@@ -58,8 +64,9 @@ boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name
                       DeviceErrorCode::kSettings);
   }
   std::shared_ptr<emulated::Motors> motors;
-  if (kind.dac) {
-    motors = std::make_shared<emulated::SimulatedMotors>(profile, kind.dac(profile), mechanics);
+  if (kind.has_strings()) {
+    motors =
+        std::make_shared<emulated::SimulatedMotors>(profile, kind.traits.dac(profile), mechanics);
   } else {
     motors = kind.hand ? kind.hand() : std::make_shared<emulated::Motors>();
   }

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include "spidar/devices/rooms.h"
 #include "spidar/link/device_kind.h"
 
 namespace spidar {
 
+// See device_registry.cpp.
+#define ROOM(name) std::vector<DeviceKind> name##_kinds();
+SPIDAR_USB_ROOMS
+#undef ROOM
+
 std::vector<DeviceKind> usb_kinds() {
   std::vector<DeviceKind> kinds;
-  for (const auto& of_room : {cyverse_kinds, falcon_kinds, mouse_kinds}) {
-    for (DeviceKind& kind : of_room()) kinds.push_back(kind);
-  }
+#define ROOM(name) \
+  for (DeviceKind & kind : name##_kinds()) kinds.push_back(kind);
+  SPIDAR_USB_ROOMS
+#undef ROOM
   return kinds;
 }
 

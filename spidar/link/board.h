@@ -3,6 +3,7 @@
 /// Interfaces of the types of boards: their protocols over a transport, without threads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -16,6 +17,8 @@
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
 #include "spidar/guardian/guardian.h"
+#include "spidar/link/encoder_counts.h"
+#include "spidar/realtime/monotonic.h"
 
 namespace spidar::boards {
 
@@ -35,12 +38,21 @@ struct Settings {
   bool threaded = true;
 };
 
-/// A board that puts out an `Output` and reads a `Reading`. open() also identifies and resets the
-/// board; when it throws, the caller calls close(), which leaves the motors at their last value.
-template <typename Output, typename Reading>
-class BoardOf : public Openable {
+/// A board that puts out an `Output` and reads a `Reading`. These functions are what a driver
+/// writes. One thread at a time.
+template <typename OutputType, typename ReadingType>
+class BoardOf {
  public:
-  using Openable::Openable;
+  using Output = OutputType;
+  using Reading = ReadingType;
+
+  /// `name` is for messages: "usb:1-2".
+  explicit BoardOf(std::string name) : name_(std::move(name)) {}
+  virtual ~BoardOf() = default;
+
+  /// Claims, identifies and resets the board, and reads it once, while no motor pulls. Throws
+  /// DeviceError; the caller then calls close(). May be called again after close().
+  virtual void open() = 0;
 
   /// One exchange; gives up at the deadline (CLOCK_MONOTONIC). `reading` is written only if the
   /// result is kNone.
@@ -49,28 +61,48 @@ class BoardOf : public Openable {
   /// To be called after a fault, before the next cycle. May block for some milliseconds.
   virtual void recover() noexcept = 0;
 
-  /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
-  /// another open(): the board is not to be left in the state that other programs expect.
-  virtual void expect_reopening() noexcept {}
-
-  /// Sets the counts to zero at the present position of the grip. To be called after open().
-  virtual void zero_counts() noexcept {}
-
-  /// True if the board's counters have been reset since it was last open, for example because it
-  /// had no power, so that they do not determine the position of the grip. Remains true until
-  /// zero_counts().
-  virtual bool counts_restarted() const noexcept { return false; }
-
-  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
-  virtual int rotary() const noexcept { return -1; }
+  /// Releases the board; leaves the motors at their last value. Safe to call twice.
+  virtual void close() noexcept = 0;
 
   /// Packets that set the motors to zero when this process can no longer do it, one set for each
   /// connection. To be called after open().
   virtual std::vector<LastWill> last_wills() const = 0;
+
+  /// What open() found, for the user: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
+  virtual std::string description() const = 0;
+
+  const std::string& name() const noexcept { return name_; }
+
+  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
+  int rotary() const noexcept { return rotary_; }
+
+  /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
+  /// another open(): the board is not to be left in the state that other programs expect.
+  void expect_reopening() noexcept { reopening_ = true; }
+
+ protected:
+  const std::string name_;
+  int rotary_ = -1;
+  bool reopening_ = false;
 };
 
 /// Motors and encoders: puts out volts, reads counts.
-using Board = BoardOf<MotorVolts, DeviceReading>;
+class Board : public BoardOf<MotorVolts, DeviceReading> {
+ public:
+  Board(std::string name, int counter_bits) : BoardOf(std::move(name)), counts_(counter_bits) {}
+  EncoderCounts& counts() noexcept { return counts_; }
+
+ protected:
+  /// Takes the counters of an answer.
+  LinkFault take(const std::array<uint32_t, kMaxStrings>& counters,
+                 DeviceReading& reading) noexcept {
+    if (!counts_.update(counters, monotonic_now_ns())) return LinkFault::kCounterJump;
+    reading.count = counts_.counts();
+    return LinkFault::kNone;
+  }
+
+  EncoderCounts counts_;
+};
 
 struct ForceOutput {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the hand, device frame

@@ -52,4 +52,42 @@ void require_fitting(const std::string& device, const Profile& profile, const Tr
   }
 }
 
+StringBoard::StringBoard(std::string name, const Profile& profile,
+                         std::unique_ptr<Transport> transport, const Traits& traits)
+    : OnTransport(std::move(name), std::move(transport), traits.counter_bits),
+      dac_(traits.dac(profile)) {
+  require_fitting(name_, profile, traits);
+}
+
+void StringBoard::open() {
+  transport_->open();
+  transport_->recover();
+  Answer now;
+  const LinkFault fault = open_exchange(
+      [&](int64_t deadline_ns) {
+        const LinkFault not_reset = reset(deadline_ns);
+        return not_reset != LinkFault::kNone ? not_reset : exchange({}, now, deadline_ns);
+      },
+      *transport_);
+  if (fault != LinkFault::kNone) throw no_answer(name_, fault);
+  counts_.open(now.counter, kMaxStrings);
+  rotary_ = now.rotary;
+}
+
+LinkFault StringBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
+                             int64_t deadline_ns) noexcept {
+  Digits digits{};
+  for (size_t i = 0; i < digits.size(); ++i) digits[i] = dac_.digit(volts.volt[i]);
+  Answer now;
+  LinkFault fault = exchange(digits, now, deadline_ns);
+  if (fault == LinkFault::kNone) fault = take(now.counter, reading);
+  if (fault == LinkFault::kNone) reading.inputs = now.inputs;
+  return fault;
+}
+
+std::vector<LastWill> StringBoard::last_wills() const {
+  const std::vector<uint8_t> zero = zero_packet();
+  return wills(*transport_, {{zero.data(), zero.size()}});
+}
+
 }  // namespace spidar::boards

@@ -13,6 +13,7 @@
 
 #include "spidar/device.h"
 #include "spidar/guardian/guardian.h"
+#include "spidar/link/board.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/transports/bytes.h"
@@ -24,8 +25,9 @@ namespace spidar::boards {
 template <typename BoardType>
 class OnTransport : public BoardType {
  public:
-  OnTransport(std::string name, std::unique_ptr<Transport> transport)
-      : BoardType(std::move(name)), transport_(std::move(transport)) {}
+  template <typename... Rest>
+  OnTransport(std::string name, std::unique_ptr<Transport> transport, Rest... rest)
+      : BoardType(std::move(name), rest...), transport_(std::move(transport)) {}
 
   void recover() noexcept override { transport_->recover(); }
   void close() noexcept override { transport_->close(); }
@@ -94,8 +96,17 @@ struct DacScale {
 /// The properties that a protocol defines for every board of its kind.
 struct Traits {
   int dac_bits = 12;
-  double max_V = 0;      ///< largest voltage of the D/A; 0: not published, the profile states it
-  bool negative = true;  ///< whether it puts out negative volts
+  double max_V = 0;         ///< largest voltage of the D/A; 0: not published, the profile states it
+  double digits_per_V = 0;  ///< 0: the largest digit is the largest voltage
+  bool negative = false;    ///< whether it puts out negative volts
+  int counter_bits = 16;    ///< of the encoders
+
+  DacScale dac(const Profile& profile) const noexcept {
+    const int max_digit = (1 << dac_bits) - 1;
+    const double range_V = max_V > 0 ? max_V : profile.dac_max_V;
+    return {digits_per_V > 0 ? digits_per_V : max_digit / range_V, negative ? -max_digit : 0,
+            max_digit};
+  }
 };
 
 /// Why the profile cannot be for this board, as the end of a sentence that names the field: "has
@@ -104,5 +115,36 @@ std::string misfit(const Profile& profile, const Traits& board);
 
 /// Throws DeviceError with misfit().
 void require_fitting(const std::string& device, const Profile& profile, const Traits& board);
+
+/// A board that takes a digit for the motor of each string and answers with its counter.
+class StringBoard : public OnTransport<Board> {
+ public:
+  /// Throws DeviceError when the profile describes another board, see require_fitting().
+  StringBoard(std::string name, const Profile& profile, std::unique_ptr<Transport> transport,
+              const Traits& traits);
+
+  void open() final;
+  LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
+                  int64_t deadline_ns) noexcept final;
+  std::vector<LastWill> last_wills() const final;
+
+ protected:
+  using Digits = std::array<int, kMaxStrings>;
+  struct Answer {
+    std::array<uint32_t, kMaxStrings> counter{};  ///< only the bits that the board has
+    uint32_t inputs = 0;
+    int rotary = -1;  ///< position of the ID switch; −1: none
+  };
+
+  virtual LinkFault exchange(const Digits& digits, Answer& answer,
+                             int64_t deadline_ns) noexcept = 0;
+  /// The packet that sets all motors to zero.
+  virtual std::vector<uint8_t> zero_packet() const = 0;
+  /// Called before the first exchange after opening.
+  virtual LinkFault reset(int64_t) noexcept { return LinkFault::kNone; }
+
+ private:
+  const DacScale dac_;
+};
 
 }  // namespace spidar::boards

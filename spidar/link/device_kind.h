@@ -6,6 +6,8 @@
 
 #include <memory>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "spidar/link/board.h"
@@ -43,19 +45,16 @@ constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
 
 struct DeviceKind {
   const char* device = "";  ///< what its name for make_grip() begins with: "usb"
+  const char* board = "";   ///< "sh4", for sim:sh4; that of the real device if there is one only
   const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
+  const char* names = "";   ///< how a real one may be named, separated by ", "
+  UsbId usb = {};           ///< vendor 0 for one that is not on USB
   /// Profile::board of profiles for it; empty for one without strings.
   const char* profile_board = "";
-  UsbId usb;  ///< vendor 0 for one that is not on USB
-  /// Makes the board at the other end of a transport. Throws DeviceError when it cannot drive the
-  /// profile.
-  boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
-                             std::unique_ptr<Transport> transport) = nullptr;
-  const char* board = "";  ///< "sh4", for sim:sh4; that of the real device if there is one only
-  const char* names = "";  ///< how a real one may be named, separated by ", "
   /// The profile with which its simulation is driven if none is named, and the real device, too, if
   /// it has no strings.
   const char* profile = kDefaultProfile;
+  boards::Traits traits = {};  ///< of a board with strings; profiles have to fit them
   /// What device=auto calls a device without strings that it has chosen: "a Novint Falcon". Empty:
   /// such a device is used only if it is named.
   const char* chosen_as = "";
@@ -63,11 +62,13 @@ struct DeviceKind {
   /// description, or "inferred", if parts of that are inferred, which an emulation cannot confirm.
   const char* evidence = "emulated";
   const char* note = "";  ///< what is inferred
-  boards::Traits traits;  ///< of a board with strings; profiles have to fit them
+
+  /// Makes the board at the other end of a transport. Throws DeviceError when it cannot drive the
+  /// profile.
+  boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
+                             std::unique_ptr<Transport> transport) = nullptr;
   /// The emulation of the board, connected to these motors; null when there is none.
   std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
-  /// With strings: the D/A converter of the board, through which the simulation moves its motors.
-  boards::DacScale (*dac)(const Profile& profile) = nullptr;
   /// Without strings: the hand of the simulation; null when nothing feels what the board puts out.
   std::shared_ptr<emulated::Motors> (*hand)() = nullptr;
 
@@ -85,15 +86,34 @@ struct DeviceKind {
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };
 
-// What each file adds to devices().
+// For the members of a DeviceKind:
 
-std::vector<DeviceKind> cyverse_kinds();
-std::vector<DeviceKind> falcon_kinds();
-std::vector<DeviceKind> force_feedback_kinds();
-std::vector<DeviceKind> inverse3_kinds();
-std::vector<DeviceKind> mouse_kinds();
-std::vector<DeviceKind> sound_kinds();
-std::vector<DeviceKind> uart_kinds();
+template <typename BoardType>
+boards::AnyBoard attach(const std::string& name, const Profile& profile,
+                        std::unique_ptr<Transport> transport) {
+  if constexpr (std::is_base_of_v<boards::Board, BoardType>) {
+    return std::make_unique<BoardType>(name, profile, std::move(transport));
+  } else {
+    return std::make_unique<BoardType>(name, std::move(transport));
+  }
+}
+
+template <typename Emulated>
+std::unique_ptr<emulated::Board> emulate(std::shared_ptr<emulated::Motors> motors) {
+  return std::make_unique<Emulated>(std::move(motors));
+}
+
+/// The number from 1 to `largest` in "NAME=NUMBER", of which `name` has the equals sign; 0 if
+/// `option` is something else.
+inline int option_value(const std::string& option, const std::string& name, int largest) {
+  if (option.compare(0, name.size(), name) != 0) return 0;
+  const std::string digits = option.substr(name.size());
+  if (digits.empty() || digits.size() > 5) return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const int value = std::stoi(digits);
+  return value <= largest ? value : 0;
+}
+
 /// Those on USB.
 std::vector<DeviceKind> usb_kinds();
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <type_traits>
 #include <utility>
 
 #include "spidar/link/board.h"
@@ -38,11 +39,10 @@ std::vector<std::unique_ptr<BoardType>> one(std::unique_ptr<BoardType> board) {
 
 }  // namespace
 
-template <typename BoardType, typename Output, typename Reading>
-LinkThread<BoardType, Output, Reading>::LinkThread(std::vector<std::unique_ptr<BoardType>> boards,
-                                                   std::function<BoardType&()> open,
-                                                   const Settings& settings)
-    : DeviceOf<Output, Reading>(boards.front()->name()),
+template <typename BoardType>
+LinkThread<BoardType>::LinkThread(std::vector<std::unique_ptr<BoardType>> boards,
+                                  std::function<BoardType&()> open, const Settings& settings)
+    : LinkThread::DeviceOf(boards.front()->name()),
       boards_(std::move(boards)),
       open_board_(std::move(open)),
       board_(boards_.front().get()),
@@ -51,20 +51,19 @@ LinkThread<BoardType, Output, Reading>::LinkThread(std::vector<std::unique_ptr<B
   sem_init(&replied_, 0, 0);
 }
 
-template <typename BoardType, typename Output, typename Reading>
-LinkThread<BoardType, Output, Reading>::LinkThread(std::unique_ptr<BoardType> board,
-                                                   const Settings& settings)
+template <typename BoardType>
+LinkThread<BoardType>::LinkThread(std::unique_ptr<BoardType> board, const Settings& settings)
     : LinkThread(one(std::move(board)), {}, settings) {}
 
-template <typename BoardType, typename Output, typename Reading>
-LinkThread<BoardType, Output, Reading>::~LinkThread() {
+template <typename BoardType>
+LinkThread<BoardType>::~LinkThread() {
   close();
   sem_destroy(&requested_);
   sem_destroy(&replied_);
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::open() {
+template <typename BoardType>
+void LinkThread<BoardType>::open() {
   close();
   if (open_board_) board_ = &open_board_();
   try {
@@ -88,19 +87,21 @@ void LinkThread<BoardType, Output, Reading>::open() {
   open_ = true;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::zero_counts() {
-  if (settings_.count_zero != CountZero::kNever && !zeroed_) board_->zero_counts();
-  zeroed_ = true;
-  if (!board_->counts_restarted()) return;
-  count(LinkFault::kCounterJump);
-  throw DeviceError(board_->name() +
-                    ": was without power, its counters do not say any more where the grip is: "
-                    "hold the grip at the centre, and stop and start again");
+template <typename BoardType>
+void LinkThread<BoardType>::zero_counts() {
+  if constexpr (std::is_base_of_v<Board, BoardType>) {
+    if (settings_.count_zero != CountZero::kNever && !zeroed_) board_->counts().zero();
+    zeroed_ = true;
+    if (!board_->counts().restarted()) return;
+    count(LinkFault::kCounterJump);
+    throw DeviceError(board_->name() +
+                      ": was without power, its counters do not say any more where the grip is: "
+                      "hold the grip at the centre, and stop and start again");
+  }
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::start() {
+template <typename BoardType>
+void LinkThread<BoardType>::start() {
   stop_ = false;
   thread_ = start_thread("spidar-link", [this] {
     request_exact_timers();
@@ -109,8 +110,8 @@ void LinkThread<BoardType, Output, Reading>::start() {
   });
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::stop() noexcept {
+template <typename BoardType>
+void LinkThread<BoardType>::stop() noexcept {
   if (!thread_.joinable()) return;
   stop_ = true;
   sem_post(&requested_);
@@ -130,8 +131,8 @@ void LinkThread<BoardType, Output, Reading>::stop() noexcept {
   }
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::run() noexcept {
+template <typename BoardType>
+void LinkThread<BoardType>::run() noexcept {
   while (!stop_) {
     if (sem_wait(&requested_) != 0) continue;
     Request request;
@@ -144,23 +145,23 @@ void LinkThread<BoardType, Output, Reading>::run() noexcept {
 }
 
 /// Returns false when a connection has lost its guardian.
-template <typename BoardType, typename Output, typename Reading>
-bool LinkThread<BoardType, Output, Reading>::guarded(bool pulling) noexcept {
+template <typename BoardType>
+bool LinkThread<BoardType>::guarded(bool pulling) noexcept {
   bool all = true;
   for (const auto& guardian : guardians_) all &= guardian->watch(pulling);
   return all;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-LinkFault LinkThread<BoardType, Output, Reading>::why_unguarded() const noexcept {
+template <typename BoardType>
+LinkFault LinkThread<BoardType>::why_unguarded() const noexcept {
   const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
                                   [](const auto& guardian) { return guardian->zeroed(); });
   return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-typename LinkThread<BoardType, Output, Reading>::Reply
-LinkThread<BoardType, Output, Reading>::answer(const Request& request) noexcept {
+template <typename BoardType>
+typename LinkThread<BoardType>::Reply LinkThread<BoardType>::answer(
+    const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
   reply.fault = unguarded_;
@@ -179,9 +180,8 @@ LinkThread<BoardType, Output, Reading>::answer(const Request& request) noexcept 
   return reply;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::exchange_now(const Request& request,
-                                                          Reply& reply) noexcept {
+template <typename BoardType>
+void LinkThread<BoardType>::exchange_now(const Request& request, Reply& reply) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
   reply.fault = board_->cycle(request.output, reply.reading, begin_ns + kTransfer_ns);
   count(reply.fault);
@@ -197,15 +197,14 @@ void LinkThread<BoardType, Output, Reading>::exchange_now(const Request& request
   }
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::count(LinkFault fault) noexcept {
+template <typename BoardType>
+void LinkThread<BoardType>::count(LinkFault fault) noexcept {
   faults_[static_cast<size_t>(fault)].fetch_add(1, std::memory_order_relaxed);
   if (fault != LinkFault::kNone) last_fault_.store(fault, std::memory_order_relaxed);
 }
 
-template <typename BoardType, typename Output, typename Reading>
-LinkFault LinkThread<BoardType, Output, Reading>::exchange(const Output& output,
-                                                           Reading& reading) noexcept {
+template <typename BoardType>
+LinkFault LinkThread<BoardType>::exchange(const Output& output, Reading& reading) noexcept {
   if (!open_) return LinkFault::kGone;
   last_ = output;
   const Request request{++number_, output};
@@ -218,9 +217,9 @@ LinkFault LinkThread<BoardType, Output, Reading>::exchange(const Output& output,
 /// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
 /// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
 /// is none, the newest with a fault, or nothing.
-template <typename BoardType, typename Output, typename Reading>
-std::optional<typename LinkThread<BoardType, Output, Reading>::Reply>
-LinkThread<BoardType, Output, Reading>::ask(const Request& request) noexcept {
+template <typename BoardType>
+std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::ask(
+    const Request& request) noexcept {
   // When the queue is full, the board has not answered for some time, and this output is dropped.
   if (requests_.push(request)) sem_post(&requested_);
   const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
@@ -235,8 +234,8 @@ LinkThread<BoardType, Output, Reading>::ask(const Request& request) noexcept {
   return best;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-bool LinkThread<BoardType, Output, Reading>::bring_to_zero() noexcept {
+template <typename BoardType>
+bool LinkThread<BoardType>::bring_to_zero() noexcept {
   // What a guardian has set to zero must not be restored.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
@@ -249,8 +248,8 @@ bool LinkThread<BoardType, Output, Reading>::bring_to_zero() noexcept {
   return put_out_zero();
 }
 
-template <typename BoardType, typename Output, typename Reading>
-bool LinkThread<BoardType, Output, Reading>::put_out_zero() noexcept {
+template <typename BoardType>
+bool LinkThread<BoardType>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
@@ -265,8 +264,8 @@ bool LinkThread<BoardType, Output, Reading>::put_out_zero() noexcept {
   return false;
 }
 
-template <typename BoardType, typename Output, typename Reading>
-void LinkThread<BoardType, Output, Reading>::close() noexcept {
+template <typename BoardType>
+void LinkThread<BoardType>::close() noexcept {
   if (!open_) return;
   open_ = false;
   stop();
@@ -280,8 +279,8 @@ void LinkThread<BoardType, Output, Reading>::close() noexcept {
   guardians_.clear();
 }
 
-template <typename BoardType, typename Output, typename Reading>
-LinkHealth LinkThread<BoardType, Output, Reading>::health() const noexcept {
+template <typename BoardType>
+LinkHealth LinkThread<BoardType>::health() const noexcept {
   LinkHealth health;
   for (size_t i = 0; i < kLinkFaults; ++i) {
     health.faults[i] = faults_[i].load(std::memory_order_relaxed);
@@ -294,7 +293,7 @@ LinkHealth LinkThread<BoardType, Output, Reading>::health() const noexcept {
   return health;
 }
 
-template class LinkThread<Board, MotorVolts, DeviceReading>;
-template class LinkThread<ForceBoard, ForceOutput, ForceReading>;
+template class LinkThread<Board>;
+template class LinkThread<ForceBoard>;
 
 }  // namespace spidar::boards

@@ -31,11 +31,13 @@ namespace spidar::boards {
 /// Motors pull only as long as every connection has its guardian. Without one, the motors are set
 /// to zero at once, and the device is lost until it is reopened with a new guardian.
 ///
-/// For `Output` there are the functions pulls(output), which tells whether it differs from rest,
-/// and scaled(output, fraction). `BoardType` derives from BoardOf<Output, Reading>.
-template <typename BoardType, typename Output, typename Reading>
-class LinkThread final : public DeviceOf<Output, Reading> {
+/// For the board's `Output` there are the functions pulls(output), which tells whether it differs
+/// from rest, and scaled(output, fraction).
+template <typename BoardType>
+class LinkThread final : public DeviceOf<typename BoardType::Output, typename BoardType::Reading> {
  public:
+  using Output = typename BoardType::Output;
+  using Reading = typename BoardType::Reading;
   /// The longest wait for a reply in a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
   /// Time after which an exchange counts as failed.
@@ -115,7 +117,7 @@ class LinkThread final : public DeviceOf<Output, Reading> {
   LatencyHistogram round_trip_;
 };
 
-using StringLink = LinkThread<Board, MotorVolts, DeviceReading>;
-using ForceLink = LinkThread<ForceBoard, ForceOutput, ForceReading>;
+using StringLink = LinkThread<Board>;
+using ForceLink = LinkThread<ForceBoard>;
 
 }  // namespace spidar::boards

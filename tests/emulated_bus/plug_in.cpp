@@ -18,7 +18,6 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/devices/cyverse/board.h"
 #include "spidar/link/device_kind.h"
 #include "spidar/profiles/profile_file.h"
 #include "tests/emulated_bus/bus_state.h"
@@ -163,7 +162,7 @@ std::unique_ptr<RehearsedGrip> grip_on(const std::string& profile_name) {
     if (kind.board != board || *kind.profile_board == 0) continue;
     const Profile profile = load_profile(profile_name.empty() ? kind.profile : profile_name);
     bus().rehearsal.strings = profile.geometry.count;
-    return std::make_unique<RehearsedGrip>(profile, boards::cyverse_dac(profile));
+    return std::make_unique<RehearsedGrip>(profile, kind.traits.dac(profile));
   }
   if (!profile_name.empty()) refuse(board + " has no strings, and therefore no profile");
   return nullptr;

@@ -37,7 +37,7 @@ void fuzz_sh4(ByteView bytes) {
   CyverseDigits digits{}, digits_again{};
   if (!sh4::decode_update(bytes, digits)) return;
   sh4::encode_update(digits, packet);
-  for (uint16_t& digit : digits) digit = std::min(digit, sh4::kMaxDigit);
+  for (int& digit : digits) digit = std::min(digit, sh4::kMaxDigit);
   require(sh4::decode_update(packet, digits_again) && digits == digits_again,
           "fuzz_protocols: SH4 digits are others");
 }

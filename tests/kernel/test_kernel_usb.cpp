@@ -81,7 +81,7 @@ TEST_F(KernelUsb, ThousandsOfExchangesCarryVoltsAndCounts) {
   settings.threaded = false;
   const auto device = make_device("usb", profile, settings);
   device->open();
-  const boards::DacScale dac = boards::cyverse_dac(profile);
+  const boards::DacScale dac = boards::Sh4::kTraits.dac(profile);
   MotorVolts volts;
   DeviceReading reading;
   for (int done = 0; done < kExchanges; ++done) {
@@ -153,7 +153,7 @@ class KernelSession : public KernelUsb {
         std::abs(last.commanded.force_N.x() - force_x_N) > 1e-9)
       return false;
     const MotorVolts volts = to_volts(last.tension_N, profile);
-    const boards::DacScale dac = boards::cyverse_dac(profile);
+    const boards::DacScale dac = boards::Sh4::kTraits.dac(profile);
     for (size_t i = 0; i < kMaxStrings; ++i)
       if (bench.digit[i] != dac.digit(volts.volt[i])) return false;
     // The grip is in the middle, where every force below the limit can be made; a solver's

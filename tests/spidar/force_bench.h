@@ -6,14 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "spidar/devices/falcon/board.h"
 #include "spidar/devices/falcon/emulated.h"
 #include "spidar/devices/force_feedback/board.h"
 #include "spidar/devices/force_feedback/emulated.h"
-#include "spidar/devices/inverse3/board.h"
-#include "spidar/devices/inverse3/emulated.h"
-#include "spidar/devices/mouse/board.h"
-#include "spidar/devices/mouse/emulated.h"
 #include "spidar/link/emulated_transport.h"
 #include "spidar/link/force_grip.h"
 #include "tests/spidar/kinds.h"

@@ -64,34 +64,13 @@ TEST(EncoderCounts, ComeBackFromABitThatFlipped) {
   EXPECT_EQ(counts.counts()[1], 7002);
 }
 
-/// The other end of the example in docs/extend.md.
-class EmulatedExample final : public emulated::Board {
- public:
-  using emulated::Board::Board;
-  void receive(ByteView bytes) noexcept override {
-    std::array<int, kMaxStrings> digits{};
-    for (size_t i = 0; i < digits.size(); ++i) digits[i] = bytes.u16(2 * i);
-    motors_->put_out(digits);
-    due_ = true;
-  }
-  size_t reply(MutableBytes bytes) noexcept override {
-    if (!due_ || bytes.size < 16) return 0;
-    due_ = false;
-    for (size_t i = 0; i < kMaxStrings; ++i)
-      bytes.put_u16(2 * i, static_cast<uint16_t>(motors_->counts()[i]));
-    return 16;
-  }
-
- private:
-  bool due_ = false;
-};
-
+/// The example of docs/extend.md.
 TEST(ExampleBoard, IsABoard) {
+  const DeviceKind kind = example_kinds().front();
   BoardBench bench("sh4");
   boards::StringLink device(
-      std::make_unique<ExampleBoard>(
-          "example", bench.profile,
-          bench.transport_to(std::make_unique<EmulatedExample>(bench.recorded))),
+      std::get<std::unique_ptr<boards::Board>>(
+          kind.attach("example", bench.profile, bench.transport_to(kind.emulate(bench.recorded)))),
       {boards::CountZero::kFirstOpen, false, false});
   *bench.wire = LinkFault::kTimeout;
   EXPECT_THROW(device.open(), DeviceError);

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "examples/example_board.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
@@ -62,7 +61,7 @@ TEST_P(Boards, VoltsBeyondTheConverterAreCut) {
   DeviceReading reading;
   ASSERT_EQ(device->exchange(volts, reading), LinkFault::kNone);
   EXPECT_EQ(motors.digit[0], 4095);
-  EXPECT_EQ(motors.digit[1], is_uart ? -4095 : 0);
+  EXPECT_EQ(motors.digit[1], kind.traits.negative ? -4095 : 0);
   EXPECT_EQ(motors.digit[2], 0);
   EXPECT_EQ(motors.digit[3], 0);
 }

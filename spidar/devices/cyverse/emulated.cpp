@@ -2,26 +2,15 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/devices/cyverse/emulated.h"
 
-#include <algorithm>
 #include <array>
 #include <optional>
 
 namespace spidar::emulated {
-namespace {
-
-template <size_t N>
-std::array<int, kMaxStrings> as_ints(const std::array<uint16_t, N>& digits) noexcept {
-  std::array<int, kMaxStrings> ints{};
-  std::copy(digits.begin(), digits.end(), ints.begin());
-  return ints;
-}
-
-}  // namespace
 
 void Sh4::receive(ByteView bytes) noexcept {
   CyverseDigits digits{};
   if (!sh4::decode_update(bytes, digits)) return;
-  motors_->put_out(as_ints(digits));
+  motors_->put_out(digits);
   const std::array<int32_t, kMaxStrings> counts = motors_->counts();
   sh4::Reading reading;
   reading.dac_echo = digits;
@@ -43,7 +32,7 @@ void Simple::receive(ByteView bytes) noexcept {
   if (!command) return;
   switch (*command) {
     case usb_simple::Command::kSetDac:
-      motors_->put_out(as_ints(digits));
+      motors_->put_out(digits);
       break;
     case usb_simple::Command::kLatchCounters: {
       const std::array<int32_t, kMaxStrings> counts = motors_->counts();

@@ -4,6 +4,19 @@
 
 #include <algorithm>
 
+namespace spidar {
+namespace {
+
+void put_digits(const CyverseDigits& digits, size_t at, MutableBytes bytes) noexcept {
+  for (const int digit : digits) {
+    bytes.put_u16(at, static_cast<uint16_t>(std::clamp(digit, 0, sh4::kMaxDigit)));
+    at += 2;
+  }
+}
+
+}  // namespace
+}  // namespace spidar
+
 namespace spidar::sh4 {
 namespace {
 
@@ -25,9 +38,7 @@ void encode_update(const CyverseDigits& digits, Packet& packet) noexcept {
   const MutableBytes bytes(packet);
   bytes.put_u8(0, kUpdateAll);
   bytes.put_u8(1, kBaseAnalyzer);
-  for (size_t i = 0; i < kChannels; ++i) {
-    bytes.put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
-  }
+  put_digits(digits, kDigitsAt, bytes);
 }
 
 bool decode_update(ByteView packet, CyverseDigits& digits) noexcept {
@@ -42,7 +53,7 @@ void encode_reading(const Reading& reading, Packet& packet) noexcept {
   packet.fill(0);
   const MutableBytes bytes(packet);
   for (size_t i = 0; i < kChannels; ++i) {
-    bytes.put_u16(kEchoAt + 2 * i, reading.dac_echo[i]);
+    bytes.put_u16(kEchoAt + 2 * i, static_cast<uint16_t>(reading.dac_echo[i]));
     bytes.put_u16(kCounterAt + 2 * i, static_cast<uint16_t>(reading.counter[i]));
     bytes.put_u16(kAdcAt + 2 * i, reading.adc[i]);
   }
@@ -86,9 +97,7 @@ void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
 void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   packet[0] = kSetDac;
-  for (size_t i = 0; i < kChannels; ++i) {
-    MutableBytes(packet).put_u16(kDigitsAt + 2 * i, std::min(digits[i], kMaxDigit));
-  }
+  put_digits(digits, kDigitsAt, packet);
 }
 
 void encode_latch(Packet& packet) noexcept {

@@ -18,7 +18,7 @@
 namespace spidar {
 
 /// Digits of the D/A converters of either board.
-using CyverseDigits = std::array<uint16_t, 8>;
+using CyverseDigits = std::array<int, 8>;
 
 /// The reading that both boards report.
 struct CyverseReading {
@@ -39,7 +39,7 @@ constexpr uint8_t kEndpointIn = 0x86;
 constexpr size_t kPacketSize = 512;
 constexpr size_t kChannels = 8;
 constexpr int kDacBits = 12;
-constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
+constexpr int kMaxDigit = (1 << kDacBits) - 1;
 
 using Packet = std::array<uint8_t, kPacketSize>;
 
@@ -72,7 +72,7 @@ constexpr uint8_t kEndpointIn = 0x86;
 constexpr size_t kPacketSize = 32;
 constexpr size_t kChannels = 8;
 constexpr int kDacBits = 12;
-constexpr uint16_t kMaxDigit = (1 << kDacBits) - 1;
+constexpr int kMaxDigit = (1 << kDacBits) - 1;
 
 using Packet = std::array<uint8_t, kPacketSize>;
 

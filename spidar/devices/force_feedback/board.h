@@ -49,8 +49,8 @@ class ForceFeedback final : public ForceBoard {
   }
   /// Does nothing: the thread that makes the updates recovers from faults.
   void recover() noexcept override {}
-  /// The centring spring stays off in the next close(), for a hand that still holds the stick.
-  void expect_reopening() noexcept override { reopening_ = true; }
+  /// The centring spring stays off when it is to be reopened, for a hand that still holds the
+  /// stick.
   void close() noexcept override { effects_->close(reopening_); }
   std::vector<LastWill> last_wills() const override { return effects_->last_wills(); }
   /// Includes what the device lacks.
@@ -73,13 +73,13 @@ class ForceFeedback final : public ForceBoard {
   }
   GripAbilities abilities() const noexcept override {
     const int force = force_axes_, position = position_axes_;
-    return {{true, force != 1, false},
-            false,
-            force != 0,
-            {position > 0, position > 1, false},
-            ff::kFullForce_N,
-            1000 / kUpdate_ms,
-            buttons_};
+    return {.force = {true, force != 1, false},
+            .torque = false,
+            .direction = force != 0,
+            .position = {position > 0, position > 1, false},
+            .largest_force_N = ff::kFullForce_N,
+            .rate_Hz = 1000 / kUpdate_ms,
+            .buttons = buttons_};
   }
 
  private:
@@ -88,7 +88,6 @@ class ForceFeedback final : public ForceBoard {
   std::atomic<int> force_axes_{2};     ///< 1: only x; 0: it only rumbles
   std::atomic<int> position_axes_{2};  ///< 1: only x
   std::atomic<int> buttons_{0};
-  bool reopening_ = false;
 };
 
 }  // namespace spidar::boards

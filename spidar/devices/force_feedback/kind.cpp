@@ -5,7 +5,6 @@
 #include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/devices/force_feedback/evdev_transport.h"
 #include "spidar/link/device_kind.h"
-#include "spidar/link/device_parts.h"
 
 namespace spidar {
 namespace {
@@ -47,15 +46,15 @@ boards::AnyBoard make_force_feedback(const std::string& name, const std::string&
           DeviceErrorCode::kSettings);
     }
   }
-  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
+  return std::make_unique<boards::ForceFeedback>(
       name, profile, std::make_unique<EvdevTransport>(name, path, axes),
-      boards::StickEffects::Updates::kOwnThread, options));
+      boards::StickEffects::Updates::kOwnThread, options);
 }
 
 boards::AnyBoard attach_force_feedback(const std::string& name, const Profile& profile,
                                        std::unique_ptr<Transport> transport) {
-  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::ForceFeedback>(
-      name, profile, std::move(transport), boards::StickEffects::Updates::kInCycle));
+  return std::make_unique<boards::ForceFeedback>(name, profile, std::move(transport),
+                                                 boards::StickEffects::Updates::kInCycle);
 }
 
 std::vector<DeviceInfo> list_force_feedback_boards() {
@@ -78,17 +77,15 @@ std::vector<DeviceInfo> list_force_feedback_boards() {
 }  // namespace
 
 std::vector<DeviceKind> force_feedback_kinds() {
-  DeviceKind kind;
-  kind.device = "ff";
-  kind.title = "force-feedback device";
-  kind.board = "ff";
-  kind.names = "ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT";
-  kind.chosen_as = "a joystick or wheel with directional force";
-  kind.attach = attach_force_feedback;
-  kind.emulate = emulate<emulated::ForceFeedback>;
-  kind.make = make_force_feedback;
-  kind.list = list_force_feedback_boards;
-  return {kind};
+  return {{.device = "ff",
+           .board = "ff",
+           .title = "force-feedback device",
+           .names = "ff, ff:PATH, ff:PATH,axes=N, ff:PATH,gain=PERCENT",
+           .chosen_as = "a joystick or wheel with directional force",
+           .attach = attach_force_feedback,
+           .emulate = emulate<emulated::ForceFeedback>,
+           .make = make_force_feedback,
+           .list = list_force_feedback_boards}};
 }
 
 }  // namespace spidar

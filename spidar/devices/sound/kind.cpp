@@ -7,7 +7,6 @@
 #include "spidar/devices/sound/sound_cards.h"
 #include "spidar/devices/sound/sound_transport.h"
 #include "spidar/link/device_kind.h"
-#include "spidar/link/device_parts.h"
 #include "spidar/text.h"
 
 namespace spidar {
@@ -15,8 +14,8 @@ namespace {
 
 boards::AnyBoard make_sound(const std::string& name, const std::string& rest, const Profile&) {
   const sound::Settings settings = sound::Settings::parse(name, rest);
-  return std::unique_ptr<boards::ForceBoard>(std::make_unique<boards::Sound>(
-      name, std::make_unique<SoundTransport>(name, settings), settings));
+  return std::make_unique<boards::Sound>(name, std::make_unique<SoundTransport>(name, settings),
+                                         settings);
 }
 
 std::vector<DeviceInfo> list_sound() {
@@ -35,16 +34,14 @@ std::vector<DeviceInfo> list_sound() {
 }  // namespace
 
 std::vector<DeviceKind> sound_kinds() {
-  DeviceKind kind;
-  kind.device = "sound";
-  kind.title = "sound card";
-  kind.board = "sound";
-  kind.names = "sound:CARD, sound:CARD,CHANNEL=DIRECTION";
-  kind.attach = attach<boards::Sound>;
-  kind.emulate = emulate<emulated::Sound>;
-  kind.make = make_sound;
-  kind.list = list_sound;
-  return {kind};
+  return {{.device = "sound",
+           .board = "sound",
+           .title = "sound card",
+           .names = "sound:CARD, sound:CARD,CHANNEL=DIRECTION",
+           .attach = attach<boards::Sound>,
+           .emulate = emulate<emulated::Sound>,
+           .make = make_sound,
+           .list = list_sound}};
 }
 
 }  // namespace spidar

@@ -2,9 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/devices/uart/board.h"
 
+#include <algorithm>
+#include <unistd.h>
 #include <utility>
 
+#include "spidar/devices/uart/emulated.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/link/device_kind.h"
+#include "spidar/transports/tty_transport.h"
 
 namespace spidar::boards {
 namespace {
@@ -17,11 +22,11 @@ static_assert(LastWill::kMaxLength >= uart_motor::kZerosBefore + uart_motor::kMa
 }  // namespace
 
 Uart::Uart(std::string name, const Profile& profile, std::vector<std::unique_ptr<Transport>> lines)
-    : Board(std::move(name)),
+    : Board(std::move(name), kTraits.counter_bits),
       strings_(static_cast<size_t>(profile.geometry.count)),
-      dac_(uart_dac(profile)),
+      dac_(kTraits.dac(profile)),
       lines_(std::move(lines)) {
-  require_fitting(name_, profile, kUartTraits);
+  require_fitting(name_, profile, kTraits);
 }
 
 void Uart::find_stations(Transport& line, int64_t patience_ns) {
@@ -128,11 +133,7 @@ LinkFault Uart::cycle(const MotorVolts& volts, DeviceReading& reading,
                       int64_t deadline_ns) noexcept {
   std::array<uint32_t, kMaxStrings> raw{};
   const LinkFault fault = exchange_all(volts, raw, deadline_ns);
-  if (fault != LinkFault::kNone) return fault;
-  if (!counts_.update(raw, monotonic_now_ns())) return LinkFault::kCounterJump;
-  reading.count = counts_.counts();
-  reading.inputs = 0;
-  return LinkFault::kNone;
+  return fault == LinkFault::kNone ? take(raw, reading) : fault;
 }
 
 void Uart::recover() noexcept {
@@ -173,3 +174,68 @@ std::vector<LastWill> Uart::last_wills() const {
 }
 
 }  // namespace spidar::boards
+
+namespace spidar {
+namespace {
+
+boards::AnyBoard attach_uart(const std::string& name, const Profile& profile,
+                             std::unique_ptr<Transport> line) {
+  std::vector<std::unique_ptr<Transport>> lines;
+  lines.push_back(std::move(line));
+  return std::make_unique<boards::Uart>(name, profile, std::move(lines));
+}
+
+/// `paths` are separated by commas.
+boards::AnyBoard make_uart(const std::string& name, const std::string& paths,
+                           const Profile& profile) {
+  std::vector<std::unique_ptr<Transport>> lines;
+  for (size_t begin = 0; begin <= paths.size();) {
+    const size_t end = std::min(paths.find(',', begin), paths.size());
+    if (end == begin) {
+      throw DeviceError(name + ": a path is empty; write uart:/dev/ttyUSB0",
+                        DeviceErrorCode::kSettings);
+    }
+    const std::string path = paths.substr(begin, end - begin);
+    lines.push_back(std::make_unique<TtyTransport>("uart:" + path, path, uart_motor::kBaud));
+    begin = end + 1;
+  }
+  return std::make_unique<boards::Uart>(name, profile, std::move(lines));
+}
+
+/// Two boards of four motors, like the published pair of a SPIDAR-G.
+std::unique_ptr<emulated::Board> emulate_uart(std::shared_ptr<emulated::Motors> motors) {
+  constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
+  return std::make_unique<emulated::Uart>(
+      std::move(motors), std::vector<emulated::Uart::Station>{{0, kB3M}, {1, kB3M}});
+}
+
+std::vector<DeviceInfo> list_uart() {
+  std::vector<DeviceInfo> boards;
+  for (const TtyLine& line : list_tty_lines()) {
+    if (!line.named) continue;
+    DeviceInfo& board = boards.emplace_back();
+    board.device = "uart:" + line.path;
+    board.path = line.path;
+    board.accessible = access(line.path.c_str(), R_OK | W_OK) == 0;
+    if (!board.accessible) board.note = "no permission: join the group dialout";
+  }
+  return boards;
+}
+
+}  // namespace
+
+std::vector<DeviceKind> uart_kinds() {
+  return {{.device = "uart",
+           .board = "uart",
+           .title = "UART motor boards",
+           .names = "uart:PATH",
+           .profile_board = "uart",
+           .profile = "spidar-g6x4",
+           .traits = boards::Uart::kTraits,
+           .attach = attach_uart,
+           .emulate = emulate_uart,
+           .make = make_uart,
+           .list = list_uart}};
+}
+
+}  // namespace spidar

@@ -11,20 +11,18 @@
 #include "spidar/devices/uart/packets.h"
 #include "spidar/link/board.h"
 #include "spidar/link/board_parts.h"
-#include "spidar/link/encoder_counts.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar::boards {
 
-constexpr Traits kUartTraits{uart_motor::kDacBits, uart_motor::kDac_V, true};
-
-inline DacScale uart_dac(const Profile&) noexcept {
-  return {uart_motor::kDigitsPerVolt, -uart_motor::kMaxDigit, uart_motor::kMaxDigit};
-}
-
 /// Strings are numbered by line, then by board number, then by motor.
 class Uart final : public Board {
  public:
+  static constexpr Traits kTraits{.dac_bits = uart_motor::kDacBits,
+                                  .max_V = uart_motor::kDac_V,
+                                  .digits_per_V = uart_motor::kDigitsPerVolt,
+                                  .negative = true};
+
   /// Throws DeviceError when the profile describes another board, see require_fitting().
   Uart(std::string name, const Profile& profile, std::vector<std::unique_ptr<Transport>> lines);
 
@@ -32,8 +30,6 @@ class Uart final : public Board {
   LinkFault cycle(const MotorVolts& volts, DeviceReading& reading,
                   int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
-  void zero_counts() noexcept override { counts_.zero(); }
-  bool counts_restarted() const noexcept override { return counts_.restarted(); }
   void close() noexcept override;
   std::vector<LastWill> last_wills() const override;
   std::string description() const override;
@@ -61,7 +57,6 @@ class Uart final : public Board {
   std::vector<Station> stations_;
   size_t motors_ = 0;
   std::string first_description_;  ///< from the first opening
-  EncoderCounts counts_{16};
   std::array<uint8_t, uart_motor::kMaxCycleLength> out_{};
   std::array<uint8_t, uart_motor::kMaxReplyLength> in_{};
 };

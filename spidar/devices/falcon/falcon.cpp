@@ -1,20 +1,78 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/devices/falcon/board.h"
-
+// The Novint Falcon: three axes of force and position, and four buttons.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "spidar/devices/falcon/emulated.h"
 #include "spidar/devices/falcon/kinematics.h"
+#include "spidar/devices/falcon/packets.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/link/device_kind.h"
+#include "spidar/link/spring_hand.h"
 #include "spidar/user_folder.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::boards {
+
+/// The device forgets its firmware without power, and this project may not ship it. If the device
+/// does not answer without firmware, open() loads it from the file that $SPIDAR_FALCON_FIRMWARE
+/// names, or from ~/.local/share/gst-spidar/novint-falcon.bin. That takes up to three seconds.
+///
+/// Until every encoder has passed its mark there is no position and no force: the user pulls the
+/// grip all the way out and pushes it all the way in.
+class Falcon final : public OnTransport<ForceBoard> {
+ public:
+  using OnTransport::OnTransport;
+
+  void open() override;
+  LinkFault cycle(const ForceOutput& output, ForceReading& reading,
+                  int64_t deadline_ns) noexcept override;
+  void recover() noexcept override;
+  std::vector<LastWill> last_wills() const override;
+  std::string description() const override;
+  GripAbilities abilities() const noexcept override { return kAbilities; }
+
+ private:
+  /// At libnifalcon's scale, the force that the motors can give in every direction within 50 mm of
+  /// the centre. 8.9 N (2 lb) are often quoted, without a source.
+  static constexpr double kMostForce_N = 4.4;
+  /// The corners of a picture are 49.5 mm from the centre, those of the whole room 54.6 mm.
+  static constexpr GripAbilities kAbilities{.torque = false,
+                                            .largest_force_N = kMostForce_N,
+                                            .buttons = 4,
+                                            .half_room_m = {0.035, 0.035, 0.023}};
+
+  /// Where the grip was in the last answer.
+  struct Position {
+    Eigen::Vector3d position_m;
+    Eigen::Matrix3d jacobian;
+  };
+
+  template <typename Requests>
+  LinkFault set_line(const Requests& requests) noexcept;
+  LinkFault say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept;
+  LinkFault ask(const falcon::Command& command, int64_t deadline_ns) noexcept;
+  LinkFault start() noexcept;
+  LinkFault greet_loader() noexcept;
+  LinkFault load(const std::vector<uint8_t>& firmware) noexcept;
+  void update() noexcept;
+  std::array<int, 3> digits_for(const Eigen::Vector3d& force_N) const noexcept;
+
+  falcon::Packet out_{};
+  falcon::Reading seen_;
+  std::optional<Position> position_;
+  bool stale_ = false;  ///< bytes of an exchange that failed may still arrive
+};
+
 namespace {
 
 /// The published program tries a hundred times, of which few are needed.
@@ -202,3 +260,24 @@ std::string Falcon::description() const {
 }
 
 }  // namespace spidar::boards
+
+namespace spidar {
+
+std::vector<DeviceKind> falcon_kinds() {
+  return {{.device = "falcon",
+           .board = "falcon",
+           .title = "Novint Falcon",
+           .names = "falcon, falcon:ID",
+           .usb = {.vendor = falcon::kVendor,
+                   .product = falcon::kProduct,
+                   .out = falcon::kEndpointOut,
+                   .in = falcon::kEndpointIn,
+                   .full_speed = true},
+           .chosen_as = "a Novint Falcon",
+           .note = "reach and scale of the force are inferred",
+           .attach = attach<boards::Falcon>,
+           .emulate = emulate<emulated::Falcon>,
+           .hand = emulated::spring_hand<emulated::Falcon::kHomed>}};
+}
+
+}  // namespace spidar

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The Haply Inverse3 behind the maker's service: three axes of force and position.
-#pragma once
-
+// The Haply Inverse3 behind the maker's service: three axes of force and position.
 #include <array>
 #include <memory>
 #include <string>
@@ -10,9 +8,11 @@
 #include <vector>
 
 #include "spidar/devices/inverse3/packets.h"
-#include "spidar/link/board.h"
 #include "spidar/link/board_parts.h"
-#include "spidar/transports/transport.h"
+#include "spidar/link/device_kind.h"
+#include "spidar/link/emulated_transport.h"
+#include "spidar/link/spring_hand.h"
+#include "spidar/transports/websocket_transport.h"
 
 namespace spidar::boards {
 
@@ -21,7 +21,7 @@ namespace spidar::boards {
 class Inverse3 final : public OnTransport<ForceBoard> {
  public:
   /// `id` is the device's number in the service ("049D"); empty: the first one.
-  Inverse3(std::string name, std::string id, std::unique_ptr<Transport> transport)
+  Inverse3(std::string name, std::unique_ptr<Transport> transport, std::string id = {})
       : OnTransport(std::move(name), std::move(transport)),
         id_(std::move(id)),
         answer_(inverse3::kStateSize) {}
@@ -96,14 +96,10 @@ class Inverse3 final : public OnTransport<ForceBoard> {
  private:
   /// Half of the side of the square in the circle of kReach_m.
   static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
-  static constexpr GripAbilities kAbilities{{true, true, true},
-                                            false,
-                                            true,
-                                            {true, true, true},
-                                            inverse3::kLargestForce_N,
-                                            1000,
-                                            inverse3::kButtons,
-                                            {kRoom_m, kRoom_m, kRoom_m}};
+  static constexpr GripAbilities kAbilities{.torque = false,
+                                            .largest_force_N = inverse3::kLargestForce_N,
+                                            .buttons = inverse3::kButtons,
+                                            .half_room_m = {kRoom_m, kRoom_m, kRoom_m}};
 
   /// Sends the first bytes of text_, and reads the state of the device.
   LinkFault ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept {
@@ -141,3 +137,87 @@ class Inverse3 final : public OnTransport<ForceBoard> {
 };
 
 }  // namespace spidar::boards
+
+namespace spidar::emulated {
+
+/// Its digits are the force in millinewtons, its counts the position in micrometres: to the right,
+/// up, towards the viewer. The inputs are the buttons.
+class Inverse3 final : public Board {
+ public:
+  explicit Inverse3(std::shared_ptr<Motors> motors,
+                    inverse3::Version version = inverse3::Version::k35)
+      : Board(std::move(motors)) {
+    state.id = "049D";
+    state.version = version;
+  }
+
+  void receive(ByteView bytes) noexcept override {
+    due_ = true;
+    Eigen::Vector3d force_N;
+    if (inverse3::decode_force(bytes, state.id, force_N)) put_out_N(*motors_, force_N);
+  }
+  size_t reply(MutableBytes bytes) noexcept override {
+    if (!due_) return 0;
+    due_ = false;
+    state.position_m = position_m(*motors_);
+    state.buttons = motors_->inputs();
+    return inverse3::encode_state(state, bytes);
+  }
+
+  inverse3::State state;  ///< what it reports, except for position and buttons
+
+ private:
+  bool due_ = false;
+};
+
+}  // namespace spidar::emulated
+
+namespace spidar {
+namespace {
+
+/// `rest` is empty, ID, or ID,port=N.
+boards::AnyBoard make_inverse3(const std::string& name, const std::string& rest, const Profile&) {
+  constexpr int kLastPort = 65535;
+  const size_t comma = rest.find(',');
+  int port = inverse3::kPort;
+  if (comma != std::string::npos) port = option_value(rest.substr(comma + 1), "port=", kLastPort);
+  if (port == 0 || comma == 0) {
+    throw DeviceError(name +
+                          ": write inverse3, inverse3:ID or inverse3:ID,port=N, where N is the " +
+                          "port of Haply's service, " + std::to_string(inverse3::kPort) +
+                          " unless it was changed",
+                      DeviceErrorCode::kSettings);
+  }
+  auto service = std::make_unique<WebSocketTransport>(
+      name, static_cast<uint16_t>(port),
+      "start Haply's Inverse Service (Haply Hub, or: systemctl start haply-inverse-service)");
+  return std::make_unique<boards::Inverse3>(name, std::move(service), rest.substr(0, comma));
+}
+
+/// To ask the service would be a session there.
+std::vector<DeviceInfo> list_inverse3() {
+  if (!is_listening(inverse3::kPort)) return {};
+  DeviceInfo board;
+  board.device = "inverse3";
+  board.path = "localhost:" + std::to_string(inverse3::kPort);
+  board.note = "if it is plugged in, which only Haply's service knows";
+  return {board};
+}
+
+}  // namespace
+
+std::vector<DeviceKind> inverse3_kinds() {
+  return {{.device = "inverse3",
+           .board = "inverse3",
+           .title = "Haply Inverse3",
+           .names = "inverse3, inverse3:ID",
+           .chosen_as = "a Haply Inverse3",
+           .evidence = "inferred",
+           .attach = attach<boards::Inverse3>,
+           .emulate = emulate<emulated::Inverse3>,
+           .hand = emulated::spring_hand<0>,
+           .make = make_inverse3,
+           .list = list_inverse3}};
+}
+
+}  // namespace spidar

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The SPIDAR-mouse: two force axes, no position.
-#pragma once
-
+// The SPIDAR-mouse: two force axes, no position.
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
 #include "spidar/devices/mouse/packets.h"
-#include "spidar/link/board.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/link/device_kind.h"
+#include "spidar/link/emulated_transport.h"
 
 namespace spidar::boards {
 
@@ -73,8 +74,11 @@ class Mouse final : public OnTransport<ForceBoard> {
  private:
   /// Period at which the published program sends a force, 4 ms.
   static constexpr int kCyclesPerReport = 4;
-  static constexpr GripAbilities kAbilities{
-      {true, true, false}, false, true, {}, mouse::kMaxForce_N, 1000 / kCyclesPerReport};
+  static constexpr GripAbilities kAbilities{.force = {true, true, false},
+                                            .torque = false,
+                                            .position = {},
+                                            .largest_force_N = mouse::kMaxForce_N,
+                                            .rate_Hz = 1000 / kCyclesPerReport};
 
   bool started_ = false;
   int cycle_ = 0;
@@ -83,3 +87,60 @@ class Mouse final : public OnTransport<ForceBoard> {
 };
 
 }  // namespace spidar::boards
+
+namespace spidar::emulated {
+
+/// Its digits are the force in millinewtons, x and y.
+class Mouse final : public Board {
+ public:
+  using Board::Board;
+  void receive(ByteView bytes) noexcept override {
+    mouse::Command command{};
+    Eigen::Vector2d force_N;
+    if (!mouse::decode_command(bytes, command, force_N)) return;
+    if (command == mouse::Command::kQuery) due_ = true;
+    if (command == mouse::Command::kStart) started_ = true;
+    if (command == mouse::Command::kStop) started_ = false;
+    std::array<int, kMaxStrings> milli_N{};
+    if (command == mouse::Command::kForce && started_) {
+      milli_N[0] = static_cast<int>(std::lround(1000 * force_N.x()));
+      milli_N[1] = static_cast<int>(std::lround(1000 * force_N.y()));
+    }
+    if (command == mouse::Command::kForce || command == mouse::Command::kStop) {
+      motors_->put_out(milli_N);
+    }
+  }
+  size_t reply(MutableBytes bytes) noexcept override {
+    mouse::Report report;
+    mouse::encode_state(report);
+    return copy_out(report, bytes, due_);
+  }
+
+ private:
+  bool due_ = false;
+  bool started_ = false;
+};
+
+}  // namespace spidar::emulated
+
+namespace spidar {
+
+std::vector<DeviceKind> mouse_kinds() {
+  return {{.device = "mouse",
+           .board = "mouse",
+           .title = "SPIDAR-mouse",
+           .names = "mouse, mouse:ID",
+           .usb = {.vendor = mouse::kVendor,
+                   .product = mouse::kProduct,
+                   .out = mouse::kEndpointOut,
+                   .in = mouse::kEndpointIn,
+                   .interrupt = true,
+                   .shared = true,
+                   .full_speed = true},
+           .evidence = "inferred",
+           .note = "other devices have this id: it is asked when it is opened",
+           .attach = attach<boards::Mouse>,
+           .emulate = emulate<emulated::Mouse>}};
+}
+
+}  // namespace spidar

@@ -9,7 +9,7 @@
 
 #include "spidar/devices/falcon/packets.h"
 
-namespace spidar::test::novint_falcon_test {
+namespace spidar::test::falcon_test {
 namespace {
 
 using falcon::Command;
@@ -128,4 +128,4 @@ TEST(NovintFalcon, TheLineIsThatOfThePublishedProgram) {
 }
 
 }  // namespace
-}  // namespace spidar::test::novint_falcon_test
+}  // namespace spidar::test::falcon_test

@@ -22,7 +22,7 @@
 #include "tests/support/recorded_motors.h"
 #include "tests/support/temporary_folder.h"
 
-namespace spidar::test::uart_line_test {
+namespace spidar::test::uart_test {
 namespace {
 
 constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
@@ -272,4 +272,4 @@ TEST(TtyList, ListsAdaptersAndNamedLines) {
 }
 
 }  // namespace
-}  // namespace spidar::test::uart_line_test
+}  // namespace spidar::test::uart_test
