@@ -4,11 +4,12 @@
 """Follows the links of README.md, CONTRIBUTING.md, CHANGELOG.md, SECURITY.md, tests/README.md and docs/ within the
 source tree.
 
-check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path in
-`code` that begins with the name of a folder; `core/x/y` and `x/y` may stand for y.h and
-y.cpp there. Every page of docs/ must be linked from docs/README.md, which is the table of contents of the site; every picture
-must have a text for those who do not see it. A page of the site links no page that the site has not (`PAGES` in
-docs/conf.py): Sphinx refuses that. Addresses on the net are not fetched."""
+check_links.py SOURCE: a link must name a file of SOURCE, and after a # a heading of that page; so must a path
+in `code` that begins with the name of a folder; `core/x/y` and `x/y` may stand for y.h and y.cpp there. The
+sources must have every name in the `code` of docs/extend.md. Every page of docs/ must be linked from
+docs/README.md, which is the table of contents of the site; every picture must have a text for those who do not
+see it. A page of the site links no page that the site has not (`PAGES` in docs/conf.py): Sphinx refuses that.
+Addresses on the net are not fetched."""
 
 import ast
 import re
@@ -20,6 +21,8 @@ LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]+)\)")
 
 # In code; of these, a path begins with the name of a folder.
 PATH = re.compile(r"`(\w[\w.-]*/[\w./-]*[\w/])`")
+# A name of the source: `ForceBoard`, `GainController::force_N()`, `OnTransport<ForceBoard>`.
+NAME = re.compile(r"`([A-Za-z_]\w*(?:::\w+)*(?:<\w+>)?(?:\(\))?)`")
 TOP = ("core", "docs", "examples", "plugin", "spidar", "tests")
 
 
@@ -55,6 +58,12 @@ def main():
              if "__pycache__" not in path.parts}
     files |= {str(Path(file).with_suffix("")) for file in files}
     folders = {part for file in files for part in Path(file).parts[:-1]}
+
+    words = {word for top in TOP for path in (source / top).rglob("*") if path.suffix in (".h", ".cpp", ".build", ".py")
+             for word in re.findall(r"\w+", path.read_text(encoding="utf-8"))}
+    names = [name for name in NAME.findall(texts[docs / "extend.md"]) if not name.startswith(("yours", "pipelines_"))]
+    wrong += [f"docs/extend.md: {name}: the sources have no such name" for name in names
+              if not set(re.findall(r"\w+", name)) <= words]
 
     def is_there(path, page):
         """As it is, beside the page, or the end of a path, as `layers/regions` is."""
