@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
+#include "core/field/block_search.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
 
@@ -104,6 +105,31 @@ TEST(BouncingBall, VelocityFollowsTheAnalyticCurveInAReducedPicture) {
   for (int n = 1; n < kFrames; ++n) {
     const Eigen::Vector2d error = frames[n].motion.velocity_px_s - mean_velocity(scene, n);
     EXPECT_LT(error.norm(), 3 * kVelocity_px_s) << "frame " << n << ", error " << error.transpose();
+  }
+}
+
+TEST(BouncingBall, ThatIsSmallIsFeltAgainSoonAfterItTurned) {
+  // No block fits in the picture with the impact, and in the next one it moves unlike before.
+  constexpr int kLost = 2;
+  for (const int rate_Hz : {25, 30}) {
+    BallSettings settings = ball();
+    settings.radius_px = 10;
+    settings.gravity_px_s2 = 800;
+    const BallScene scene(settings);
+    Picture picture(settings.width, settings.height, 5);
+    MotionAnalyzer analyzer;
+    const double interval_s = 1.0 / rate_Hz;
+    const int impact = static_cast<int>(std::ceil(scene.impacts_s(4).front() / interval_s));
+    for (int n = 0; n <= impact + kLost; ++n) {
+      scene.render(n * interval_s, picture.pixels.data(), picture.stride);
+      const Frame& frame = analyzer.analyze(picture.view(), std::llround(1e9 * n * interval_s));
+      if (n != impact - kLost && n != impact + kLost) continue;
+      const Eigen::Vector2d moved_px =
+          scene.position_px(n * interval_s) - scene.position_px((n - 1) * interval_s);
+      // What a block's motion may be off, px of a picture of 427 × 240.
+      EXPECT_LT((frame.motion.velocity_px_s * interval_s - moved_px).norm(), 1.5 * kMaxOff_px)
+          << "frame " << n << " of " << rate_Hz << " a second, impact before " << impact;
+    }
   }
 }
 

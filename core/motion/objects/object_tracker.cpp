@@ -54,16 +54,18 @@ ObjectLife* ObjectTracker::owner_of(int16_t region) {
   return best;
 }
 
-/// The object out of sight that is expected nearest to the region with a similar motion; null when
-/// there is none.
+/// The object out of sight that is expected nearest to the region with a similar motion, or that
+/// has bounced and may be there; null when there is none.
 ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
   ObjectLife* best = nullptr;
   double nearest_px = 0;
   for (ObjectLife& life : lives_) {
-    if (life.is_seen() || !life.is_born() || !life.moves_like(region, frame.interval_s)) continue;
+    if (life.is_seen() || !life.is_born()) continue;
     const Eigen::Vector2d sides_px = life.expected.sides_px + region.high_px - region.low_px;
     const Eigen::Vector2d apart_px = (life.expected.position_px - region.position_px).cwiseAbs();
-    if ((apart_px.array() >= kReach * sides_px.array()).any()) continue;
+    const bool goes_on = life.moves_like(region, frame.interval_s) &&
+                         (apart_px.array() < kReach * sides_px.array()).all();
+    if (!goes_on && !life.has_bounced_to(region, frame.interval_s)) continue;
     if (best && apart_px.norm() >= nearest_px) continue;
     best = &life;
     nearest_px = apart_px.norm();

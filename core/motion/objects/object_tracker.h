@@ -82,6 +82,21 @@ struct ObjectLife {
     return (other.relative_px - expected_px).norm() <
            kAlikeFraction * fastest_px + static_cast<double>(kMaxOff_px);
   }
+  /// Whether the region may be the object after it has bounced. In the picture with the impact, and
+  /// often in the next, it moves unlike before and is out of sight. Afterwards it is no faster, and
+  /// not further away than it could get.
+  bool has_bounced_to(const Region& other, double interval_s) const {
+    constexpr double kMaxPictures = 2;
+    constexpr double kMaxError_px = kMaxOff_px;
+    const double speed_px_s = expected.velocity_px_s.norm();
+    if (since_s > (kMaxPictures + 0.5) * interval_s || speed_px_s * interval_s < kMaxError_px) {
+      return false;
+    }
+    const Eigen::Vector2d seen_at_px = expected.position_px - since_s * expected.velocity_px_s;
+    return other.relative_px.norm() < speed_px_s * interval_s + kMaxError_px &&
+           (other.position_px - seen_at_px).norm() <
+               speed_px_s * (since_s + interval_s) + kBlock_px;
+  }
   /// Whether the visible region is only a rim of the object.
   bool is_rim(const Region& visible) const {
     return visible.blocks < kRimFraction * expected.blocks;
