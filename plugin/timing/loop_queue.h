@@ -28,7 +28,6 @@ class LoopQueue {
   /// after they were forwarded, for forward_again().
   explicit LoopQueue(size_t most_waiting, size_t kept = 0)
       : most_waiting_(most_waiting), kept_(kept) {}
-  virtual ~LoopQueue() = default;
   LoopQueue(const LoopQueue&) = delete;
   LoopQueue& operator=(const LoopQueue&) = delete;
 
@@ -48,7 +47,6 @@ class LoopQueue {
       return;
     }
     entries_.push_back(entry);
-    enter(entries_.back());
     forward_locked();
   }
   /// Tries again to forward the entries that wait. To be called while playing, more often than
@@ -76,9 +74,6 @@ class LoopQueue {
 
  protected:
   // With the mutex held.
-  virtual void enter(Entry&) {}
-  /// The entry as the loop gets it.
-  virtual Entry shown(const Entry& entry) const { return entry; }
   void clear_entries() {
     entries_.clear();
     handed_ = 0;
@@ -91,16 +86,24 @@ class LoopQueue {
   }
 
   mutable std::mutex mutex_;
+  InstantRate instant_rate_;  ///< of wrenches; samples have running times of the sink
   std::pmr::unsynchronized_pool_resource pool_;  ///< so that a queue that has grown needs no heap
   std::pmr::deque<Entry> entries_{&pool_};
 
  private:
   static uint64_t samples_in(const TimedWrench&) { return 1; }
   static uint64_t samples_in(const TrackBlock& block) { return block.count; }
+  TimedWrench at_sink(TimedWrench wrench) const {
+    const int64_t motion_ns = instant_rate_.at_sink(wrench.motion_ns());
+    wrench.time_ns = instant_rate_.at_sink(wrench.time_ns);
+    wrench.before_ns = wrench.time_ns - motion_ns;
+    return wrench;
+  }
+  const TrackBlock& at_sink(const TrackBlock& block) const { return block; }
 
   void forward_locked() {
     if (!loop_) return;
-    while (handed_ < entries_.size() && loop_->schedule(shown(entries_[handed_]))) ++handed_;
+    while (handed_ < entries_.size() && loop_->schedule(at_sink(entries_[handed_]))) ++handed_;
     for (; handed_ > kept_; --handed_) entries_.pop_front();
   }
   void clear_locked() {
@@ -129,6 +132,14 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
   /// rendered them: at least as many as fit into its ring and its timeline together.
   static constexpr size_t kHandedOn = 512;
   WrenchBacklog() : LoopQueue(kMaxWaiting, kHandedOn) {}
+
+  void add(TimedWrench wrench) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      wrench.time_ns += skipped_before_ns_;
+    }
+    LoopQueue::add(wrench);
+  }
 
   /// From now on, the sink shows frames `multiplier` times as fast, see InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
@@ -175,15 +186,6 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
   }
 
  private:
-  void enter(TimedWrench& entry) override { entry.time_ns += skipped_before_ns_; }
-  TimedWrench shown(const TimedWrench& entry) const override {
-    TimedWrench shown = entry;
-    shown.time_ns = instant_rate_.at_sink(entry.time_ns);
-    shown.before_ns = shown.time_ns - instant_rate_.at_sink(entry.motion_ns());
-    return shown;
-  }
-
-  InstantRate instant_rate_;
   int64_t skipped_ns_ = 0;         ///< by the sink, since the last flush
   int64_t skipped_before_ns_ = 0;  ///< the part of skipped_ns_ before this segment
 };
