@@ -53,6 +53,50 @@ ImageMotion faster(ImageMotion motion, double factor) {
   return motion;
 }
 
+ChoiceInput choice_frame(const Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
+                         const Orientation& turn) {
+  return {frame.objects,
+          frame.background ? &*frame.background : nullptr,
+          frame.place,
+          frame.interval_s(),
+          frame.picture == Likeness::kFirst,
+          stream_ns,
+          turn,
+          settings.boxes.get()};
+}
+
+ImageMotion free_motion(const Frame& frame, const AnalyzerSettings& settings) {
+  switch (settings.motion) {
+    case MotionKind::kMean:
+      return frame.mean;
+    case MotionKind::kCamera:
+      if (!frame.background) return {};
+      return camera_motion(*frame.background, frame.votes, frame.interval_s());
+    case MotionKind::kObjects:
+      return motion_at_pointer(frame.objects, frame.place.film_px(settings.pointer),
+                               frame.height());
+    case MotionKind::kObject:
+      break;
+  }
+  const MovingObject* const object = frame.dominant_object();
+  return object ? relative_motion(*object) : ImageMotion();
+}
+
+ImageMotion motion_of_choice(const Frame& frame, const AnalyzerSettings& settings,
+                             const ChoiceInput& input, const Chosen& choice) {
+  if (choice.is_free()) return free_motion(frame, settings);
+  if (choice.object) return relative_motion(*choice.object);
+  if (choice.is_kept || !frame.background) return {};
+  if (choice.rule->kind == FeelRule::Kind::kRegion) {
+    const FeelRule& region = *choice.rule;
+    return motion_in_box(frame.objects, input.px(region.position, region.far_corner));
+  }
+  if (choice.rule->kind == FeelRule::Kind::kCamera) {
+    return camera_motion(*frame.background, frame.votes, frame.interval_s());
+  }
+  return {};
+}
+
 }  // namespace
 
 AnalyzerSettings paper_settings() {
@@ -77,8 +121,7 @@ void validate(const AnalyzerSettings& settings) {
   }
 }
 
-ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
-    : settings_(settings), controller_(settings.controller) {
+ForceRenderer::ForceRenderer(const AnalyzerSettings& settings) : controller_(settings.controller) {
   validate(settings);
   choice_.set_rules(settings.feel);
   choice_.set_kept(settings.kept);
@@ -87,53 +130,8 @@ ForceRenderer::ForceRenderer(const AnalyzerSettings& settings)
 void ForceRenderer::configure(const AnalyzerSettings& settings) {
   validate(settings);
   controller_.configure(settings.controller);
-  settings_ = settings;
   choice_.set_rules(settings.feel);
   choice_.set_kept(settings.kept);
-}
-
-ChoiceInput ForceRenderer::choice_frame(const Frame& frame, const Orientation& turn) const {
-  return {frame.objects,
-          frame.background ? &*frame.background : nullptr,
-          frame.place,
-          frame.interval_s(),
-          frame.picture == Likeness::kFirst,
-          frame.stamp.stream_ns,
-          turn,
-          settings_.boxes.get()};
-}
-
-ImageMotion ForceRenderer::motion_of_choice(const Frame& frame, const Orientation& turn,
-                                            const Chosen& choice) const {
-  if (choice.is_free()) return free_motion(frame);
-  if (choice.object) return relative_motion(*choice.object);
-  if (choice.is_kept || !frame.background) return {};
-  if (choice.rule->kind == FeelRule::Kind::kRegion) {
-    const FeelRule& region = *choice.rule;
-    return motion_in_box(frame.objects,
-                         choice_frame(frame, turn).px(region.position, region.far_corner));
-  }
-  if (choice.rule->kind == FeelRule::Kind::kCamera) {
-    return camera_motion(*frame.background, frame.votes, frame.interval_s());
-  }
-  return {};
-}
-
-ImageMotion ForceRenderer::free_motion(const Frame& frame) const {
-  switch (settings_.motion) {
-    case MotionKind::kMean:
-      return frame.mean;
-    case MotionKind::kCamera:
-      if (!frame.background) return {};
-      return camera_motion(*frame.background, frame.votes, frame.interval_s());
-    case MotionKind::kObjects:
-      return motion_at_pointer(frame.objects, frame.place.film_px(settings_.pointer),
-                               frame.height());
-    case MotionKind::kObject:
-      break;
-  }
-  const MovingObject* const object = frame.dominant_object();
-  return object ? relative_motion(*object) : ImageMotion();
 }
 
 void ForceRenderer::reset() {
@@ -141,11 +139,11 @@ void ForceRenderer::reset() {
   choice_.reset();
 }
 
-void ForceRenderer::render(Frame& frame, const Orientation& turn) {
+void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
+                           const Orientation& turn) {
+  const ChoiceInput input = choice_frame(frame, settings, stream_ns, turn);
   Chosen choice;
-  if (settings_.motion != MotionKind::kMean && frame.width() != 0) {
-    choice = choice_.choose(choice_frame(frame, turn));
-  }
+  if (settings.motion != MotionKind::kMean && frame.width() != 0) choice = choice_.choose(input);
   frame.choice = choice;
   frame.choice.object = nullptr;
   if (frame.picture == Likeness::kFirst) {
@@ -158,8 +156,8 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
     frame.wrench = {};
     return;
   }
-  frame.felt_object = felt_object(frame, settings_.motion, choice);
-  ImageMotion felt = motion_of_choice(frame, turn, choice);
+  frame.felt_object = felt_object(frame, settings.motion, choice);
+  ImageMotion felt = motion_of_choice(frame, settings, input, choice);
   if (frame.picture == Likeness::kSame) {
     filter_.stop();
     washout_.reset();
@@ -178,13 +176,13 @@ void ForceRenderer::render(Frame& frame, const Orientation& turn) {
     washout_.reset();
   }
   const ImageMotion steady =
-      filter_.filter(frame.motion, frame.height(), interval_s, settings_.filter);
+      filter_.filter(frame.motion, frame.height(), interval_s, settings.filter);
   const Wrench wanted =
-      render_motion(controller_, steady, settings_.axes, frame.height(), interval_s);
+      render_motion(controller_, steady, settings.axes, frame.height(), interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
-  const double most_N = settings_.controller.max_force_N;
+  const double most_N = settings.controller.max_force_N;
   const Wrench passed =
-      washout_.apply(amplified(wanted, gain, most_N), interval_s, settings_.washout_Hz, most_N);
+      washout_.apply(amplified(wanted, gain, most_N), interval_s, settings.washout_Hz, most_N);
   frame.wrench = fade_.fade(passed, interval_s);
 }
 

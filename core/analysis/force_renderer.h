@@ -96,24 +96,20 @@ inline Wrench WrenchFade::fade(const Wrench& wrench, double interval_s) {
 class ForceRenderer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
-  explicit ForceRenderer(const AnalyzerSettings& settings = {});
+  explicit ForceRenderer(const AnalyzerSettings& settings);
 
   /// See MotionAnalyzer::configure(); AnalyzerSettings::tracker does not matter here.
   void configure(const AnalyzerSettings& settings);
 
   /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order in which they
-  /// are shown, except those that wait; `turn` is how they are turned before they are shown.
-  void render(Frame& frame, const Orientation& turn = {});
+  /// are shown, except those that wait, with the `settings` of configure(), the position in the
+  /// film, and how they are turned before they are shown.
+  void render(Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
+              const Orientation& turn);
   /// The next frame follows a seek or a discontinuity.
   void reset();
 
  private:
-  ChoiceInput choice_frame(const Frame& frame, const Orientation& turn) const;
-  ImageMotion motion_of_choice(const Frame& frame, const Orientation& turn,
-                               const Chosen& choice) const;
-  ImageMotion free_motion(const Frame& frame) const;
-
-  AnalyzerSettings settings_;
   ObjectChoice choice_;
   LostFrames lost_frames_;
   MotionFilter filter_;

@@ -14,21 +14,9 @@
 
 namespace spidar {
 
-/// When a frame is shown, and in which run of its film.
-struct FrameStamp {
-  /// Counts the runs of playback: a frame of another run does not continue the previous frame. A
-  /// seek of any length, another film and another rate begin one; a gap in the film does not.
-  uint32_t epoch = 0;
-  int64_t stream_ns = -1;   ///< position in the film of the part that is shown; −1: not known
-  int64_t running_ns = -1;  ///< when that is shown; its end if backwards; −1: not known
-  int64_t length_ns = 0;    ///< of stream time, for which it is shown; 0: not known
-  double rate = 1;          ///< of stream time against running time; negative: backwards
-};
-
 /// The result for one frame: the steps of the analysis fill it in, one after the other, and all
 /// other code reads it.
 struct Frame : MeasuredFrame {
-  FrameStamp stamp;
   Chosen choice;             ///< without `object`
   uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
   ImageMotion motion;        ///< the one that is felt, unfiltered, in px/s of the frame

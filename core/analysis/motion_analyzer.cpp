@@ -123,12 +123,11 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
 const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns,
                                      const Orientation& turn) {
   if (last_running_ns_ && running_ns <= *last_running_ns_) reset();
-  frame_.stamp.running_ns = running_ns;
-  frame_.stamp.stream_ns = stream_ns;
+  stream_ns_ = stream_ns;
   turn_ = turn;
   const bool is_anew = std::exchange(anew_, false);
   if (is_anew) renderer_.reset();
-  if (measure(image, running_ns)) renderer_.render(frame_, turn);
+  if (measure(image, running_ns)) renderer_.render(frame_, settings_, stream_ns, turn);
   return frame_;
 }
 
@@ -140,12 +139,11 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
     return nullptr;
   }
   last_running_ns_ = running_ns;
-  frame_.stamp.running_ns = running_ns;
   const Cadence::Step step = cadence_.see(Likeness::kSame, running_ns);
   frame_.picture = step.waits ? Likeness::kWaiting : Likeness::kSame;
   if (!step.waits) {
     take(step);
-    renderer_.render(frame_, turn_);
+    renderer_.render(frame_, settings_, stream_ns_, turn_);
   }
   return &frame_;
 }

@@ -76,6 +76,7 @@ class MotionAnalyzer {
   ForceRenderer renderer_;
   std::optional<int64_t> last_running_ns_;
   bool anew_ = true;
+  int64_t stream_ns_ = 0;  ///< of the newest picture
   Orientation turn_;
   Frame frame_;
 };

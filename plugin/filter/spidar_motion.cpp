@@ -146,18 +146,20 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_OBJECT_LOCK(self);
     const MotionProperties properties = state.settings;
     GST_OBJECT_UNLOCK(self);
-    const bool may_begin =
-        state.warnings.device().open(state.output, properties.device, properties.on_device_error,
-                                     [&] { return state.open(properties); });
+    const bool may_begin = state.warnings.device().open(state.feed.output, properties.device,
+                                                        properties.on_device_error, [&] {
+                                                          state.film.configure(properties.analyzer);
+                                                          return state.feed.open(properties);
+                                                        });
     if (!may_begin) return GST_STATE_CHANGE_FAILURE;
     set_opened(self, true);
   } else if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
     state.steps.begin();
   } else if (transition == GST_STATE_CHANGE_PLAYING_TO_PAUSED) {
     GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
-    state.output.follower().set_playing(false);
+    state.feed.output.follower().set_playing(false);
   } else if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
-    state.loader.interrupt();
+    state.track.loader.interrupt();
   }
 
   const GstStateChangeReturn result =
@@ -168,14 +170,14 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
       if (result == GST_STATE_CHANGE_FAILURE) state.steps.end();
       break;
     case GST_STATE_CHANGE_PAUSED_TO_PLAYING:
-      if (result != GST_STATE_CHANGE_FAILURE) state.output.follower().set_playing(true);
+      if (result != GST_STATE_CHANGE_FAILURE) state.feed.output.follower().set_playing(true);
       GST_DEBUG_OBJECT(self, "playing: force may begin");
       break;
     case GST_STATE_CHANGE_PAUSED_TO_READY:
       state.steps.end();
       break;
     case GST_STATE_CHANGE_READY_TO_NULL:
-      state.close();
+      state.feed.close();
       GST_INFO_OBJECT(self, "closed the device");
       set_opened(self, false);
       break;
@@ -191,9 +193,10 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
     {"ts-offset",
      [](auto* self, auto* value) {
-       self->state->output.follower().set_offset(g_value_get_int64(value));
+       self->state->feed.output.follower().set_offset(g_value_get_int64(value));
      }},
-    {"mute", [](auto* self, auto* value) { self->state->set_muted(g_value_get_boolean(value)); }},
+    {"mute",
+     [](auto* self, auto* value) { self->state->feed.set_muted(g_value_get_boolean(value)); }},
     {"feel", [](auto* self, auto*) { self->state->choice.rules_changed(); }},
     {"pointer",
      [](auto* self, auto*) {
@@ -204,10 +207,12 @@ static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
      [](auto* self, auto* value) {
        const bool off =
            g_value_get_enum(value) == static_cast<int>(spidar::TouchProperties::Kind::kOff);
-       if (off) self->state->reliefs.clear();
+       if (off) self->state->feed.reliefs.clear();
      }},
     {"max-force",
-     [](auto* self, auto* value) { self->state->output.set_max_force(g_value_get_double(value)); }},
+     [](auto* self, auto* value) {
+       self->state->feed.output.set_max_force(g_value_get_double(value));
+     }},
     {"overlay",
      [](auto* self, auto* value) {
        const bool draws =

@@ -48,23 +48,10 @@ static void begin_to_load_track(GstSpidarMotionFilter* self) {
   GST_OBJECT_LOCK(self);
   const std::string track = state.settings.track;
   GST_OBJECT_UNLOCK(self);
-  state.track.set_track(nullptr);
-  state.felt.reset();
   const std::string film = spidar::film_of(GST_BASE_TRANSFORM_SINK_PAD(self));
   state.choice.begin_stream(film);
   state.display.begin_stream(film);
-  state.loader.begin(track, film);
-}
-
-static void take_track(MotionState& state, const GstVideoInfo& info) {
-  if (const std::optional<spidar::tracks::LoadedTrack> loaded = state.loader.take()) {
-    const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(info));
-    std::shared_ptr<spidar::ReadAhead> blocks =
-        state.felt.judge(*loaded, frame_ns, state.frame_settings.analyzer.feel != nullptr);
-    // The wrenches of frames that came before it stay: some of them may be the end of another film.
-    if (blocks) state.track.set_track(std::move(blocks), loaded->path);
-  }
-  if (!state.felt.check()) state.track.set_track(nullptr);
+  state.track.begin_stream(track, film);
 }
 
 /// With pointer and choice of this moment.
@@ -72,8 +59,8 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   spidar::FrameSettings& settings = state.frame_settings;
   if (settings.pointer == Pointer::Kind::kGrip) {
     settings.analyzer.pointer =
-        spidar::filter::grip_position(state.output).value_or(settings.analyzer.pointer);
-    state.warnings.check_pointer(state.output.session());
+        spidar::filter::grip_position(state.feed.output).value_or(settings.analyzer.pointer);
+    state.warnings.check_pointer(state.feed.output.session());
   }
   state.choice.complete(frame, state.orientation.turn(), settings);
 }
@@ -89,7 +76,7 @@ static void log_frame(GstSpidarMotionFilter* self, const FrameReport& report, Gs
                  "frame of %" GST_TIME_FORMAT
                  ": %.1f, %.1f px/s, %zu objects, %.3f, %.3f N in "
                  "%" G_GINT64_FORMAT " us%s%s",
-                 GST_TIME_ARGS(static_cast<GstClockTime>(found.stamp.running_ns)),
+                 GST_TIME_ARGS(static_cast<GstClockTime>(report.stamp.running_ns)),
                  found.motion.velocity_px_s.x(), found.motion.velocity_px_s.y(),
                  found.objects.size(), found.wrench.force_N.x(), found.wrench.force_N.y(),
                  static_cast<gint64>(report.took_ns / 1000),
@@ -98,7 +85,7 @@ static void log_frame(GstSpidarMotionFilter* self, const FrameReport& report, Gs
 }
 
 static bool check_device(MotionState& state) {
-  return state.warnings.device().check(state.output.session(),
+  return state.warnings.device().check(state.feed.output.session(),
                                        state.frame_settings.on_device_error);
 }
 
@@ -112,20 +99,21 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   const FrameReport& report = state.report();
   const bool processed = state.warnings.guard("analysing a frame", [&] {
     complete_settings(state, *frame);
-    take_track(state, frame->info);
+    const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(frame->info));
+    state.track.take_loaded(frame_ns, settings.analyzer.feel != nullptr);
     state.display.show(state.process(*frame, GST_BASE_TRANSFORM(filter)->segment), settings,
                        *frame);
   });
   if (!processed) {
-    state.live.begin_run();
-    state.reliefs.clear();
+    state.film.begin_run();
+    state.feed.reliefs.clear();
     return GST_FLOW_OK;
   }
   log_frame(self, report, frame->buffer);
   state.warnings.check_frame(report);
-  state.warnings.check_touch(state.output, report, settings.touch);
+  state.warnings.check_touch(state.feed.output, report, settings.touch);
   if (report.analyzed) {
-    const auto stream_time = static_cast<GstClockTime>(report.frame.stamp.stream_ns);
+    const auto stream_time = static_cast<GstClockTime>(report.stamp.stream_ns);
     state.choice.check(report.frame.choice, settings.analyzer.kept, stream_time);
   }
   if (report.has_wrench() && settings.post_messages) {
@@ -170,18 +158,18 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       GST_DEBUG_OBJECT(self, "flush: scheduled wrenches are cancelled");
-      state.loader.interrupt();
-      state.clear();
+      state.track.loader.interrupt();
+      state.feed.clear();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
-      state.loader.resume();
+      state.track.loader.resume();
       // Flushes again, because a frame may have been in progress when the flush began.
-      state.clear();
+      state.feed.clear();
       state.reset();
-      if (reset_time) state.output.follower().expect_base_time();
+      if (reset_time) state.feed.output.follower().expect_base_time();
       break;
     }
     case GST_EVENT_STREAM_START:
@@ -201,10 +189,10 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       const GstSegment* segment;
       gst_event_parse_segment(event, &segment);
       GST_DEBUG_OBJECT(self, "segment: %" GST_SEGMENT_FORMAT, segment);
-      state.loader.await(kLongestWait);
+      state.track.loader.await(kLongestWait);
       if (!same_playback(trans->segment, *segment)) state.begin_epoch();
-      state.schedule.begin_segment();
-      state.live.begin_segment();
+      state.feed.schedule.begin_segment();
+      state.film.begin_segment();
       state.display.begin_segment();
       break;
     }
@@ -215,13 +203,13 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
-      state.live.begin_gap(spidar::running_time_of(trans->segment, time));
+      state.film.begin_gap(spidar::running_time_of(trans->segment, time));
       break;
     }
     case GST_EVENT_EOS:
       GST_DEBUG_OBJECT(self, "end of stream");
-      state.live.end_of_stream();
-      state.no_force.end();
+      state.film.end_of_stream();
+      state.feed.no_force.end();
       break;
     default:
       break;
@@ -250,19 +238,19 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
     GstClockTime latency;
     gst_event_parse_latency(event, &latency);
     GST_DEBUG_OBJECT(trans, "latency: %" GST_TIME_FORMAT, GST_TIME_ARGS(latency));
-    state.output.follower().set_latency(latency);
+    state.feed.output.follower().set_latency(latency);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_NAVIGATION) {
     process_mouse(GST_SPIDAR_MOTION(trans), event);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
-    state.output.follower().look_for_sink();
+    state.feed.output.follower().look_for_sink();
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
     gdouble multiplier;
     GstClockTime running_time, upstream;
     gst_event_parse_instant_rate_sync_time(event, &multiplier, &running_time, &upstream);
     GST_DEBUG_OBJECT(trans, "rate is multiplied by %g from %" GST_TIME_FORMAT " on", multiplier,
                      GST_TIME_ARGS(running_time));
-    state.change_rate(multiplier, running_time, upstream);
+    state.feed.change_rate(multiplier, running_time, upstream);
   }
   return parent_class()->src_event(trans, event);
 }
@@ -290,15 +278,15 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
 static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   MotionState& state = *GST_SPIDAR_MOTION(trans)->state;
   GST_DEBUG_OBJECT(trans, "stop");
-  state.loader.stop();
-  state.clear();
+  state.track.loader.stop();
+  state.feed.clear();
   const spidar::LineWriter::Status trace = state.trace.close();
   // Reported here, because messages during the change to NULL are discarded.
   state.warnings.check_trace(trace.error);
   if (trace.error == 0) {
     spidar::warn_of_missing_rows(GST_ELEMENT(trans), "The trace", trace.dropped);
   }
-  state.warnings.device().end_haptic_trace(state.output.session());
+  state.warnings.device().end_haptic_trace(state.feed.output.session());
   return TRUE;
 }
 

@@ -9,12 +9,12 @@ namespace {
 
 constexpr unsigned kEverywhere = kInMessage | kInMeta | kInCsv | kInJson;
 
-constexpr const char* kArea =
+constexpr const char* kAnalyzedArea =
     "part of the frame that was analysed ([area](../meta.md#the-films-area))";
-constexpr const char* kFilm =
+constexpr const char* kFilmArea =
     "[area](../meta.md#the-films-area) of the film, to which all other lengths refer";
 
-uint32_t count(int number) {
+uint32_t to_unsigned(int number) {
   return static_cast<uint32_t>(number);
 }
 
@@ -26,7 +26,7 @@ double felt_error_px_s(const Frame& frame) {
 
 void motion_fields(const ImageMotion& motion, FieldSink& to) {
   to.begin("motion");
-  to.in(kInMessage | kInCsv | kInJson, "tracked", "", count(motion.tracked),
+  to.in(kInMessage | kInCsv | kInJson, "tracked", "", to_unsigned(motion.tracked),
         "points or blocks that the motion is measured with");
   to.in(kEverywhere, "velocity", "px/s", axes(motion.velocity_px_s),
         "velocity of the motion that becomes force, before the filter: x right, y down, in pixels "
@@ -41,10 +41,10 @@ void motion_fields(const ImageMotion& motion, FieldSink& to) {
 }  // namespace
 
 void area_fields(const PicturePart& film, FieldSink& to) {
-  to.in(kInMessage | kInMeta, "area-x", "px", count(film.x), kArea);
-  to.in(kInMessage | kInMeta, "area-y", "px", count(film.y), kArea);
-  to.in(kInMessage | kInMeta, "area-width", "px", count(film.width), kArea);
-  to.in(kInMessage | kInMeta, "area-height", "px", count(film.height), kArea);
+  to.in(kInMessage | kInMeta, "area-x", "px", to_unsigned(film.x), kAnalyzedArea);
+  to.in(kInMessage | kInMeta, "area-y", "px", to_unsigned(film.y), kAnalyzedArea);
+  to.in(kInMessage | kInMeta, "area-width", "px", to_unsigned(film.width), kAnalyzedArea);
+  to.in(kInMessage | kInMeta, "area-height", "px", to_unsigned(film.height), kAnalyzedArea);
 }
 
 void no_force_fields(NoForceReason film, NoForceReason device, FieldSink& to) {
@@ -64,23 +64,23 @@ void frame_fields(const FrameReport& report, const FrameBuffer& buffer, FieldSin
   to.in(kInMessage, "timestamp", "ns", buffer.timestamp, "timestamp of the frame's buffer");
   to.in(kInMeta, "width", "px", buffer.width, "size of the frame that lengths refer to");
   to.in(kInMeta, "height", "px", buffer.height, "the same");
-  to.in(kEverywhere, "running-time", "ns", frame.stamp.running_ns, "when the frame is due");
-  to.in(kInMessage | kInCsv | kInJson, "stream-time", "ns", frame.stamp.stream_ns,
+  to.in(kEverywhere, "running-time", "ns", report.stamp.running_ns, "when the frame is due");
+  to.in(kInMessage | kInCsv | kInJson, "stream-time", "ns", report.stamp.stream_ns,
         "position of the frame in the film");
   to.in(kInMessage, "duration", "ns", buffer.duration, "duration of the frame's buffer");
   to.in(kInMeta | kInJson, "interval", "ns", frame.interval_ns,
         "time since the frame that it was compared with, or 0");
   const PicturePart& area = frame.place.area;
-  to.in(kInJson, "left", "px", area.x, kFilm);
-  to.in(kInJson, "top", "px", area.y, kFilm);
-  to.in(kInJson, "width", "px", area.width, kFilm);
-  to.in(kInJson, "height", "px", area.height, kFilm);
+  to.in(kInJson, "left", "px", area.x, kFilmArea);
+  to.in(kInJson, "top", "px", area.y, kFilmArea);
+  to.in(kInJson, "width", "px", area.width, kFilmArea);
+  to.in(kInJson, "height", "px", area.height, kFilmArea);
   to.in(kInJson, "restarted", "", frame.picture == Likeness::kFirst,
         "the analysis began anew with this frame");
   to.in(kInMessage | kInJson, "repeated", "", is_again(frame.picture),
         "the frame shows the previous picture again; the previous wrench remains valid");
   to.in(kInMeta, "repeated", "", frame.is_continuation(), "the previous wrench remains valid");
-  to.in(kInMessage | kInCsv | kInJson, "features", "", count(frame.features),
+  to.in(kInMessage | kInCsv | kInJson, "features", "", to_unsigned(frame.features),
         "points that are followed from this frame on");
   motion_fields(frame.motion, to);
   to.begin("wrench");
@@ -121,7 +121,7 @@ void object_fields(const MovingObject& object, FieldSink& to) {
   to("growth", "1/s", object.growth_1_s, "as those of `motion`");
   to("roll", "rad/s", object.roll_rad_s, "as those of `motion`");
   to("model", "", to_string(object.model), "model of its motion");
-  to("points", "", count(object.points), "points and blocks of it");
+  to("points", "", to_unsigned(object.points), "points and blocks of it");
   to("prominence", "", object.prominence,
      "how likely a viewer watches it; the largest is the dominant object");
 }

@@ -16,6 +16,7 @@
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/touch_view.h"
 #include "plugin/output/no_force.h"
+#include "plugin/timing/frame_pacer.h"
 
 namespace spidar {
 
@@ -60,13 +61,14 @@ struct FrameReport {
     kSmallArea,         ///< the property `area` leaves as little of it
   };
 
+  FrameStamp stamp;  ///< the times at the element
   Fault fault = Fault::kNone;
   bool analyzed = false;
   /// The file of the haptic track that is played; null: none. Then nothing of the frame is
   /// measured.
   std::shared_ptr<const std::string> track;
-  /// In pixels of the frame as it is stored, with the times at the element, and the wrench turned
-  /// as the picture is shown. While a haptic track is played, only times and wrench are set.
+  /// In pixels of the frame as it is stored, and the wrench turned as the picture is shown. While a
+  /// haptic track is played, only interval and wrench are set.
   Frame frame;
   Orientation turn;                                      ///< of the frame before it is shown
   PicturePart visible;                                   ///< the part of the frame that is picture

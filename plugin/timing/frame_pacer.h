@@ -8,8 +8,6 @@
 
 #include <gst/video/video.h>
 
-#include "core/analysis/frame.h"
-
 namespace spidar {
 
 /// GST_CLOCK_TIME_NONE when the segment is not in time format, as from a file source without a
@@ -24,6 +22,17 @@ inline GstClockTime stream_time_of(const GstSegment& segment, GstClockTime time)
              ? gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, time)
              : GST_CLOCK_TIME_NONE;
 }
+
+/// When a frame is shown, and in which run of its film.
+struct FrameStamp {
+  /// Counts the runs of playback: a frame of another run does not continue the previous frame. A
+  /// seek of any length, another film and another rate begin one; a gap in the film does not.
+  uint32_t epoch = 0;
+  int64_t stream_ns = -1;   ///< position in the film of the part that is shown; −1: not known
+  int64_t running_ns = -1;  ///< when that is shown; its end if backwards; −1: not known
+  int64_t length_ns = 0;    ///< of stream time, for which it is shown; 0: not known
+  double rate = 1;          ///< of stream time against running time; negative: backwards
+};
 
 /// The duration of a frame at the frame rate of the caps; 0 when they state none.
 GstClockTime nominal_duration(const GstVideoInfo& info);

@@ -143,8 +143,8 @@ class BlockMessages {
     const guint64 pts = gst_segment_position_from_running_time(&segment, GST_FORMAT_TIME, begin);
     FrameReport report;
     report.track = track_;
-    report.frame.stamp.running_ns = block.begin_ns;
-    report.frame.stamp.stream_ns =
+    report.stamp.running_ns = block.begin_ns;
+    report.stamp.stream_ns =
         static_cast<int64_t>(gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, pts));
     for (size_t i = 0; i < block.count; ++i) {
       const Wrench wrench = to_wrench(block.samples[i]);

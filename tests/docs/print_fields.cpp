@@ -63,7 +63,7 @@ void print_all(filter::MotionState& state) {
   Rows stats("stats", Names::kFields, kInMessage);
   state.describe(stats);
   Rows device("stats.device", Names::kFields);
-  state.output.describe(device);
+  state.feed.output.describe(device);
   Rows track("stats.track", Names::kFields);
   tracks::sample_fields(0, {}, 0, track);
   Rows csv("trace", Names::kColumns, kInCsv);

@@ -39,7 +39,7 @@ inline GstBuffer* make_frame(GstClockTime pts, const Wrench& wrench,
                              GstClockTime interval = kExtractedFrame) {
   GstBuffer* frame = bare_frame(pts);
   DrawnFrame report;
-  report.frame.stamp.running_ns = static_cast<int64_t>(pts);
+  report.stamp.running_ns = static_cast<int64_t>(pts);
   report.frame.interval_ns = static_cast<int64_t>(interval);
   report.frame.wrench = wrench;
   filter::attach_motion_meta(frame, report, 16, 16);

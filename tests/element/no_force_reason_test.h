@@ -33,8 +33,8 @@ class NoForceReasonTest : public testing::Test {
     h->set_caps(make_caps("GRAY8", kWidth, kHeight));
   }
 
-  HapticLoop& loop() { return h->state().output.session()->loop(); }
-  SimulatedDevice& device() { return *h->state().output.simulated(); }
+  HapticLoop& loop() { return h->state().feed.output.session()->loop(); }
+  SimulatedDevice& device() { return *h->state().feed.output.simulated(); }
 
   void tick(int count) {
     for (int i = 0; i < count; ++i) {
@@ -57,7 +57,7 @@ class NoForceReasonTest : public testing::Test {
   void show(int count, const std::function<GstBuffer*(int)>& frame, int interval_ms = kFrame_ms) {
     for (int i = 0; i < count; ++i, ++frames) {
       h->push(frame(frames), static_cast<GstClockTime>(frames * interval_ms) * GST_MSECOND);
-      if (frames >= 2 && h->state().output.session()) tick(interval_ms);
+      if (frames >= 2 && h->state().feed.output.session()) tick(interval_ms);
     }
   }
   void show_moved(int count, double px_a_frame) {

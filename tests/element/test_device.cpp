@@ -28,8 +28,8 @@ class DeviceTest : public testing::Test {
     h->set_caps(make_caps("GRAY8", 320, 240));
   }
 
-  HapticLoop& loop() { return h->state().output.session()->loop(); }
-  SimulatedDevice& device() { return *h->state().output.simulated(); }
+  HapticLoop& loop() { return h->state().feed.output.session()->loop(); }
+  SimulatedDevice& device() { return *h->state().feed.output.simulated(); }
 
   void tick(int count = 1) {
     for (int i = 0; i < count; ++i) {
@@ -82,7 +82,7 @@ TEST_F(DeviceTest, IsAtRestWhileAGapIsShown) {
 
 TEST_F(DeviceTest, MaxForceIsBoundedByWhatTheProfileCanGive) {
   open("device=sim max-force=20 controller=nonlinear alpha=1");
-  const double most_N = largest_force_N(h->state().output.profile());
+  const double most_N = largest_force_N(h->state().feed.output.profile());
   ASSERT_LT(most_N, 20);
   ASSERT_EQ(h->warnings().size(), 1u);
   EXPECT_NE(h->warnings()[0].find("max-force=20 is more than the"), std::string::npos)
@@ -117,7 +117,7 @@ TEST_F(DeviceTest, ALossIsAWarningAndTheVideoContinues) {
   EXPECT_TRUE(loop().reopen());
   tick(300);
   EXPECT_EQ(push_next(), GST_FLOW_OK);
-  EXPECT_EQ(h->state().output.snapshot()->last.device, DeviceState::kRunning);
+  EXPECT_EQ(h->state().feed.output.snapshot()->last.device, DeviceState::kRunning);
 
   device().set_fault(LinkFault::kGone);
   tick(2);
@@ -189,7 +189,7 @@ TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
     device().set_hand(hand);
     // The simulated grip moves in real time, so the test waits for as long as necessary.
     while (side * loop().snapshot().last.pose.position_m.x() < 0.9 * 0.059 / 4) tick();
-    h->state().live.begin_run();
+    h->state().film.begin_run();
     for (int n = 0; n < 6; ++n, ++frames) {
       // Apart from each other by 2 px a frame each.
       const ImageView view = scene.draw({}, {{{-80.0 - 2 * n, 0}}, {{80.0 + 2 * n, 0}}});
@@ -303,7 +303,7 @@ TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
   tick(300);
   EXPECT_GT(device().felt().tension_N.minCoeff(), 0) << "strings are taut while it is open";
   gst_element_set_state(h->element(), GST_STATE_NULL);
-  EXPECT_EQ(h->state().output.session(), nullptr);
+  EXPECT_EQ(h->state().feed.output.session(), nullptr);
 }
 
 }  // namespace

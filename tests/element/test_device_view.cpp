@@ -18,7 +18,7 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   int64_t time_ns = 1'000'000'000;
   ElementHarness h("device=sim motion=mean", [&] { return time_ns; });
   h.set_caps(make_caps("GRAY8", 320, 240));
-  HapticOutput& output = h.state().output;
+  HapticOutput& output = h.state().feed.output;
   HapticLoop& loop = output.session()->loop();
   const auto tick = [&](int count) {
     for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);

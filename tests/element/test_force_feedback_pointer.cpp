@@ -40,7 +40,7 @@ class StickTest : public testing::Test {
     time_ns += kTick_ns;
     h->tick(time_ns);
   }
-  LoopSnapshot seen() { return h->state().output.session()->loop().snapshot(); }
+  LoopSnapshot seen() { return h->state().feed.output.session()->loop().snapshot(); }
   double stick_x_m() { return seen().last.pose.position_m.x(); }
 
   /// Opens the device and waits until its stick is seen to be half of the way to the end stop,
@@ -57,7 +57,7 @@ class StickTest : public testing::Test {
   /// The felt velocity to the right while two discs move by 2 px a frame, 50 px/s: the first, from
   /// `left`, to the left, and the second, from `right`, to the right.
   double felt_px_s(double left, double right) {
-    h->state().live.begin_run();
+    h->state().film.begin_run();
     for (int n = 0; n < 6; ++n, ++frames) {
       const ImageView view = scene.draw({}, {{{left - 2 * n, 0}}, {{right + 2 * n, 0}}});
       h->push(gst_buffer_new_memdup(view.data, kWidth * kHeight),
@@ -90,7 +90,7 @@ TEST_F(StickTest, TheSimulatedOnePointsAtTheCentre) {
   open("device=sim:ff pointer=grip");
   EXPECT_NEAR(stick_x_m(), 0, 1e-4);
   DeviceView view;
-  ASSERT_TRUE(h->state().output.look_at_device(view));
+  ASSERT_TRUE(h->state().feed.output.look_at_device(view));
   EXPECT_FALSE(view.has_strings) << "the window shows none";
   // The pointer is on the second disc. The edge of the other one is 130 + 10 − 24 px away, which is
   // 1.9 σ of 60 px and leaves that one exp(−1.9² / 2) = 0.16 of the weight for an equal area. If it

@@ -15,7 +15,7 @@
 
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
-#include "plugin/filter/engine/track_source.h"
+#include "plugin/filter/engine/track_renderer.h"
 #include "plugin/tracks/track_loader.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"

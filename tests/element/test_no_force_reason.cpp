@@ -116,9 +116,11 @@ TEST_F(NoForceReasonTest, TheFilmHasEndedOnceItsLastFrameIsOnTheScreen) {
       << "two frames are on their way to the screen";
   tick(2 * kFrame_ms);
   EXPECT_EQ(stats_field("device-no-force-reason"), "ended");
-  EXPECT_EQ(h->state().no_force.first(h->state().output.snapshot()), NoForceReason::kEnded);
+  EXPECT_EQ(h->state().feed.no_force.first(h->state().feed.output.snapshot()),
+            NoForceReason::kEnded);
   tick(2000);
-  EXPECT_EQ(h->state().no_force.first(h->state().output.snapshot()), NoForceReason::kEnded)
+  EXPECT_EQ(h->state().feed.no_force.first(h->state().feed.output.snapshot()),
+            NoForceReason::kEnded)
       << "and not late";
 }
 

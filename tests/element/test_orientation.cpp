@@ -112,7 +112,7 @@ Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
   PlaybackClock clock;
   clock.playing = true;
   clock.monotonic_ns = time_ns;
-  h.state().output.session()->loop().set_playback_clock(clock);
+  h.state().feed.output.session()->loop().set_playback_clock(clock);
   gst_harness_push_event(h.harness(),
                          gst_event_new_tag(orientation_tags(orientation, GST_TAG_SCOPE_STREAM)));
   GstBuffer* buffer = make_frame(h.info(), 0, 0);
@@ -127,9 +127,9 @@ Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
   }
   gst_video_frame_unmap(&frame);
   EXPECT_EQ(h.push(buffer, 0), GST_FLOW_OK);
-  h.state().output.lead_hand(Eigen::Vector3d(0, 0, -0.01));
+  h.state().feed.output.lead_hand(Eigen::Vector3d(0, 0, -0.01));
   tick(1000);
-  return h.state().output.snapshot()->last.contact.force_N;
+  return h.state().feed.output.snapshot()->last.contact.force_N;
 }
 
 TEST(Orientation, ReliefIsTurnedLikeThePicture) {

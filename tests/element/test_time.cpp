@@ -82,39 +82,39 @@ TEST_F(Time, ASeekOfAnyLengthBeginsAnotherEpoch) {
   constexpr GstClockTimeDiff kBy_ns[] = {40'000'000,   -40'000'000,      500'000'000,
                                          -500'000'000, 3600'000'000'000, -3600'000'000'000};
   for (const GstClockTimeDiff by : kBy_ns) {
-    const uint32_t before = h.state().report().frame.stamp.epoch;
+    const uint32_t before = h.state().report().stamp.epoch;
     at += static_cast<GstClockTime>(by);
     gst_harness_push_event(h.harness(), gst_event_new_flush_start());
     gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
     send_segment(1.0, at, GST_CLOCK_TIME_NONE, at);
     h.push_moved(0, 0, at);
-    const FrameStamp first = h.state().report().frame.stamp;
+    const FrameStamp first = h.state().report().stamp;
     EXPECT_NE(first.epoch, before) << by;
     EXPECT_EQ(first.stream_ns, static_cast<int64_t>(at));
     h.push_moved(0, 0, at + kFrame);
-    EXPECT_EQ(h.state().report().frame.stamp.epoch, first.epoch) << by;
+    EXPECT_EQ(h.state().report().stamp.epoch, first.epoch) << by;
   }
 }
 
 TEST_F(Time, AnotherFilmWithoutAGapBeginsAnotherEpoch) {
   h.push_moved(0, 0, 0);
-  const uint32_t before = h.state().report().frame.stamp.epoch;
+  const uint32_t before = h.state().report().stamp.epoch;
   gst_harness_push_event(h.harness(), gst_event_new_stream_start("second"));
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
   segment.base = kFrame;
   gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
   h.push_moved(2, 0, 0);
-  EXPECT_NE(h.state().report().frame.stamp.epoch, before);
-  EXPECT_EQ(h.state().report().frame.stamp.running_ns, static_cast<int64_t>(kFrame));
+  EXPECT_NE(h.state().report().stamp.epoch, before);
+  EXPECT_EQ(h.state().report().stamp.running_ns, static_cast<int64_t>(kFrame));
 }
 
 TEST_F(Time, AGapInTheFilmIsNoSeek) {
   h.push_moved(0, 0, 0);
-  const uint32_t before = h.state().report().frame.stamp.epoch;
+  const uint32_t before = h.state().report().stamp.epoch;
   gst_harness_push_event(h.harness(), gst_event_new_gap(kFrame, 3 * GST_SECOND));
   h.push_moved(2, 0, 3 * GST_SECOND + kFrame);
-  EXPECT_EQ(h.state().report().frame.stamp.epoch, before);
+  EXPECT_EQ(h.state().report().stamp.epoch, before);
 }
 
 TEST_F(Time, DiscontinuityIsNoMotion) {
@@ -335,7 +335,7 @@ TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
       h.push_moved(0, 0, kFrame);
       for (const double multiplier : {1e-9, 0.5, 1.0, 1e9}) {
         for (const auto& [shown, upstream] : {std::pair{base, GstClockTime{0}}, {0, base}}) {
-          h.state().change_rate(multiplier, shown, upstream);
+          h.state().feed.change_rate(multiplier, shown, upstream);
           h.push_moved(0, 0, first + kFrame);
           h.push_moved(2, 0, 2 * kFrame);
           h.tick(now_ns += kTick_ns);

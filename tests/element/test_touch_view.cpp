@@ -28,7 +28,7 @@ TEST(TouchView, TheLedHandOfTheSimulatedDeviceFeelsTheSurface) {
   PlaybackClock clock;
   clock.playing = true;
   clock.monotonic_ns = time_ns;
-  h.state().output.session()->loop().set_playback_clock(clock);
+  h.state().feed.output.session()->loop().set_playback_clock(clock);
   GstBuffer* const grey = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
   gst_buffer_memset(grey, 0, 20, 320 * 240);  // 3.4 mm behind the middle
   ASSERT_EQ(h.push(grey, 0), GST_FLOW_OK);
@@ -69,7 +69,7 @@ TEST(TouchView, OtherDevicesHaveNoHandToLead) {
     window::ElementState state;
     source->read(state);
     EXPECT_FALSE(state.device && state.device->has_hand) << properties;
-    EXPECT_FALSE(h.state().output.lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
+    EXPECT_FALSE(h.state().feed.output.lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
     source->lead_hand(Eigen::Vector3d(0.01, 0, 0));
   }
 }

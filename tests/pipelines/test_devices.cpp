@@ -19,17 +19,18 @@ class OtherElement {
  public:
   OtherElement(SteppedPipeline& pipeline, const char* name) : pipeline_(pipeline) {
     element_ = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), name);
-    state().output.set_manual([&pipeline] { return static_cast<int64_t>(pipeline.now()); });
+    state().feed.output.set_manual([&pipeline] { return static_cast<int64_t>(pipeline.now()); });
   }
   ~OtherElement() { gst_object_unref(element_); }
   OtherElement(const OtherElement&) = delete;
   OtherElement& operator=(const OtherElement&) = delete;
 
   TickRecord tick() {
-    state().output.follower().refresh();
-    return watch_.tick(state().output.session()->loop(), static_cast<int64_t>(pipeline_.now()));
+    state().feed.output.follower().refresh();
+    return watch_.tick(state().feed.output.session()->loop(),
+                       static_cast<int64_t>(pipeline_.now()));
   }
-  const std::string& device() { return state().output.session()->grip().name(); }
+  const std::string& device() { return state().feed.output.session()->grip().name(); }
 
  private:
   filter::MotionState& state() { return gst_spidar_motion_state(GST_SPIDAR_MOTION(element_)); }

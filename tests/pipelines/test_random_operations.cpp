@@ -42,7 +42,7 @@ void expect_to_play(TormentedPlayer& player) {
   player.set_caps("video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1");
   std::fprintf(stderr, "waiting for a force\n");
   player.set_state(GST_STATE_PLAYING);
-  const HapticLoop& loop = player.state().output.session()->loop();
+  const HapticLoop& loop = player.state().feed.output.session()->loop();
   while (loop.snapshot().last.commanded.force_N.norm() < 0.1) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

@@ -71,7 +71,7 @@ filter::MotionState& TormentedPlayer::state() const {
 }
 
 SimulatedDevice* TormentedPlayer::device() const {
-  return state().output.simulated();
+  return state().feed.output.simulated();
 }
 
 GstPadProbeReturn TormentedPlayer::pass(GstPad* from, GstPadProbeInfo* info) {
@@ -161,7 +161,7 @@ void TormentedPlayer::drain_bus() {
 
 void TormentedPlayer::stop() {
   set_state(GST_STATE_NULL);
-  EXPECT_EQ(state().output.session(), nullptr);
+  EXPECT_EQ(state().feed.output.session(), nullptr);
   const std::filesystem::path trace = folder_.path / "haptic.csv";
   if (!std::filesystem::exists(trace)) return;
   watch_.see_trace(trace);

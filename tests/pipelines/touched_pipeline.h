@@ -29,7 +29,8 @@ class Touched {
  public:
   explicit Touched(const std::string& launch) : pipeline(launch) {
     pipeline.set_state(GST_STATE_PLAYING);
-    device_ = gst_spidar_motion_state(GST_SPIDAR_MOTION(pipeline.element())).output.simulated();
+    device_ =
+        gst_spidar_motion_state(GST_SPIDAR_MOTION(pipeline.element())).feed.output.simulated();
   }
 
   void hold(double x_m, double y_m, double z_m) {

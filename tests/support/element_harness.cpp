@@ -55,7 +55,7 @@ ElementHarness::ElementHarness(const std::string& properties, std::function<int6
   GError* error = nullptr;
   GstElement* element = gst_parse_launch((kPaper + properties).c_str(), &error);
   if (!element || error) g_error("%s", error ? error->message : "no element");
-  gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).output.set_manual(std::move(now));
+  gst_spidar_motion_state(GST_SPIDAR_MOTION(element)).feed.output.set_manual(std::move(now));
   bus_ = gst_bus_new();
   gst_element_set_bus(element, bus_);
   harness_ = gst_harness_new_with_element(element, "sink", "src");

@@ -59,7 +59,9 @@ class ElementHarness {
   const GstVideoInfo& info() const { return info_; }
   filter::MotionState& state();
   /// Ticks the haptic loop of an element that waits for it, and checks the tick.
-  TickRecord tick(int64_t now_ns) { return watch_.tick(state().output.session()->loop(), now_ns); }
+  TickRecord tick(int64_t now_ns) {
+    return watch_.tick(state().feed.output.session()->loop(), now_ns);
+  }
 
  private:
   void drain();

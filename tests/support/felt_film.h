@@ -27,7 +27,7 @@ struct ShownFrame {
 inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, int64_t ahead_ns,
                                          const AnalyzerSettings& settings = {}) {
   constexpr int64_t kTick_ns = 1'000'000;
-  constexpr int64_t kLate_ns = 10'000'000;  // a live frame may be so late (LiveSource)
+  constexpr int64_t kLate_ns = 10'000'000;  // a live frame may be so late (FilmRenderer)
   MotionAnalyzer analyzer(settings);
   WrenchTimeline timeline;
   std::vector<Eigen::Vector3d> force_N;

@@ -15,7 +15,7 @@ namespace spidar::test {
 inline window::FrameShown some_frame() {
   window::FrameShown frame{3, 7, {}};
   DrawnFrame& report = frame.report;
-  report.frame.stamp = {3, 5, 1'234'567'890'123, 40'000'000, -1.5};
+  report.stamp = {3, 5, 1'234'567'890'123, 40'000'000, -1.5};
   report.film = {std::make_shared<const std::string>("/film.avi"), 4, 9};
   report.frame.interval_ns = 40 * 1'000'000;
   report.took_ns = 600'000;

@@ -19,8 +19,8 @@ class Frames {
     window::QueuedFrame frame{};
     frame.picture =
         window::SharedPicture(nullptr, 0, [this, running_ns] { freed.push_back(running_ns); });
-    frame.report.frame.stamp.running_ns = running_ns;
-    frame.report.frame.stamp.epoch = epoch;
+    frame.report.stamp.running_ns = running_ns;
+    frame.report.stamp.epoch = epoch;
     queue_.add(std::move(frame));
   }
   /// The running time of what is shown from now on; −1: of what was shown before.
@@ -28,7 +28,7 @@ class Frames {
     std::optional<window::QueuedFrame> frame = queue_.show(running_ns);
     if (!frame) return -1;
     shown_ = std::move(*frame);
-    return shown_.report.frame.stamp.running_ns;
+    return shown_.report.stamp.running_ns;
   }
 
   std::vector<int64_t> freed;  ///< the pictures that nobody keeps any more

@@ -34,8 +34,8 @@ class Film {
       next_ns_ = ns + kFrame_ns;
       begin_ns_ = std::max(begin_ns_, ns / (2 * kSecond) * 2 * kSecond);
       DrawnFrame report;
-      report.frame.stamp.epoch = epoch_;
-      report.frame.stamp.stream_ns = ns;
+      report.stamp.epoch = epoch_;
+      report.stamp.stream_ns = ns;
       report.film.begin_ns = begin_ns_;
       report.frame.interval_ns = 40 * 1'000'000;
       for (const uint32_t id : objects) {
@@ -229,7 +229,7 @@ DrawnFrame seen(double at_s, double scene_s, const std::vector<uint32_t>& object
   DrawnFrame report;
   report.visible = {0, 0, 200, 100};
   report.frame.place = FilmPlace::whole(200, 100);
-  report.frame.stamp.stream_ns = static_cast<int64_t>(at_s * 1e9);
+  report.stamp.stream_ns = static_cast<int64_t>(at_s * 1e9);
   report.film.begin_ns = static_cast<int64_t>(scene_s * 1e9);
   for (const uint32_t id : objects) {
     MovingObject object;
@@ -266,9 +266,9 @@ TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
   DrawnFrame later = seen(2.5, 0, {1});
   sightings.update(later);
   EXPECT_EQ(sightings.find(1)->first_ns, kSecond) << "a gap in the film";
-  ++later.frame.stamp.epoch;
+  ++later.stamp.epoch;
   sightings.update(later);
-  EXPECT_EQ(sightings.find(1)->first_ns, later.frame.stamp.stream_ns) << "to the same frame";
+  EXPECT_EQ(sightings.find(1)->first_ns, later.stamp.stream_ns) << "to the same frame";
 }
 
 TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
@@ -283,7 +283,7 @@ DrawnFrame moment(double now_s, double length_s, const std::string& path = "/fil
   DrawnFrame made;
   made.film.path = std::make_shared<const std::string>(path);
   made.film.length_ns = static_cast<int64_t>(length_s * 1e9);
-  made.frame.stamp.stream_ns = static_cast<int64_t>(now_s * 1e9);
+  made.stamp.stream_ns = static_cast<int64_t>(now_s * 1e9);
   return made;
 }
 
@@ -308,7 +308,7 @@ TEST(FilmStrip, MarksRulesAndChoices) {
 TEST(FilmStrip, IsOnlyThereForAFilmAndNeverEndsBeforeIt) {
   EXPECT_EQ(window::film_strip(moment(1, 100, ""), nullptr, {}).length_ns, 0);
   DrawnFrame unknown = moment(1, 100);
-  unknown.frame.stamp.stream_ns = -1;
+  unknown.stamp.stream_ns = -1;
   EXPECT_EQ(window::film_strip(unknown, nullptr, {}).length_ns, 0);
   EXPECT_EQ(window::film_strip({}, nullptr, {}).length_ns, 0);
   EXPECT_EQ(window::film_strip(moment(7, 0), nullptr, {}).length_ns, 7 * kSecond);

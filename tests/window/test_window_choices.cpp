@@ -21,7 +21,7 @@ class WindowChoices : public WindowTest {
   /// Of 320 × 240 px, with two objects whose middles are at a quarter and at three quarters.
   static DrawnFrame frame(int64_t ms, const char* path = "/film.avi") {
     DrawnFrame report;
-    report.frame.stamp.stream_ns = report.frame.stamp.running_ns = ms * kMillisecond;
+    report.stamp.stream_ns = report.stamp.running_ns = ms * kMillisecond;
     report.film.path = std::make_shared<const std::string>(path);
     report.film.begin_ns = 0;
     report.film.length_ns = 10'000 * kMillisecond;
@@ -70,7 +70,7 @@ TEST_F(WindowChoices, HoldUntilTheSceneEndsAndAreSaved) {
   EXPECT_EQ(first[0].second[0].to_ns, 340 * kMillisecond);
   EXPECT_EQ(first[0].second[0].position, Vector2d(0.75, 0.5));
   DrawnFrame cut = frame(400);
-  cut.film.begin_ns = cut.frame.stamp.stream_ns;
+  cut.film.begin_ns = cut.stamp.stream_ns;
   give(window, cut);
   EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 400 * kMillisecond);
   EXPECT_FALSE(source->wait_for_choices(2)[1]) << "it is let go";

@@ -180,16 +180,16 @@ TEST_F(WindowElement, AWindowSystemThatHangsHoldsUpNothing) {
   PlaybackClock clock;
   clock.playing = true;
   clock.monotonic_ns = time_ns;
-  h->state().output.session()->loop().set_playback_clock(clock);
+  h->state().feed.output.session()->loop().set_playback_clock(clock);
   for (int n = 0; n < 20; ++n) {
     push_next();
     tick(40);
   }
   EXPECT_EQ(h->motions().size(), 20u);
-  EXPECT_GT(h->state().output.session()->loop().snapshot().last.commanded.force_N.norm(), 0.5)
+  EXPECT_GT(h->state().feed.output.session()->loop().snapshot().last.commanded.force_N.norm(), 0.5)
       << "50 px/s by eq. 15: 0.89 N";
   EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_NULL), GST_STATE_CHANGE_SUCCESS);
-  EXPECT_EQ(h->state().output.session(), nullptr);
+  EXPECT_EQ(h->state().feed.output.session(), nullptr);
   display->thaw();
   EXPECT_EQ(gst_element_set_state(h->element(), GST_STATE_PLAYING), GST_STATE_CHANGE_SUCCESS);
   look(*window());  // and all is well again

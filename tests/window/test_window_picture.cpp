@@ -155,7 +155,7 @@ TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
   window::Window window(std::make_shared<FakeSource>(state));
   DrawnFrame report;
   for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
-    report.frame.stamp.running_ns = running_ns;
+    report.stamp.running_ns = running_ns;
     give(window, report, level);
     look(window);
   }

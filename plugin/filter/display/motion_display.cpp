@@ -61,7 +61,7 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
   }
   DrawnFrame shown = drawn(report, settings.analyzer);
   const bool draws_curve = properties.overlay == DisplayProperties::Overlay::kCurve;
-  if (draws_curve) curve_.add(report.frame.stamp.running_ns, report.frame.wrench.force_N.norm());
+  if (draws_curve) curve_.add(report.stamp.running_ns, report.frame.wrench.force_N.norm());
   if (shown_in) {
     follow_film(report);
     shown.film = film_;
@@ -95,7 +95,7 @@ void MotionDisplay::begin_segment() {
 }
 
 void MotionDisplay::follow_film(const FrameReport& report) {
-  const FrameStamp& now = report.frame.stamp;
+  const FrameStamp& now = report.stamp;
   if (now.stream_ns < 0) return;
   const bool is_seek = std::exchange(epoch_, now.epoch) != now.epoch;
   const bool is_cut = report.analyzed && !report.frame.has_motion_before();

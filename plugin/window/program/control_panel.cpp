@@ -262,8 +262,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   // From the right, as much as there is room for.
   std::vector<std::string> parts;
   char text[96];
-  std::snprintf(text, sizeof text, "%.1f s",
-                1e-9 * static_cast<double>(report.frame.stamp.running_ns));
+  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(report.stamp.running_ns));
   parts.emplace_back(text);
   if (!report.track) {
     std::snprintf(text, sizeof text, "analysis %.1f ms a frame",

@@ -162,7 +162,7 @@ void DebugWindow::follow_title() {
 void DebugWindow::read() {
   state_ = link_.state();
   settings_.update(state_.settings);
-  const uint32_t epoch_before = report_.frame.stamp.epoch;
+  const uint32_t epoch_before = report_.stamp.epoch;
   const std::string film_before = report_.film.name();
   // The picture of the moment at which the device is: that on the screen.
   const bool plays = state_.device && state_.device->last.playing;
@@ -180,7 +180,7 @@ void DebugWindow::read() {
     texture_->load(picture_, width);
   }
   if (frame) {
-    const bool is_anew = report_.frame.stamp.epoch != epoch_before;
+    const bool is_anew = report_.stamp.epoch != epoch_before;
     if (report_.click != click_before_ || is_anew) requested_.reset();
     follow_title();
     sightings_.update(report_);

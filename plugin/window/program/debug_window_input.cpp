@@ -205,7 +205,7 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
 
 /// Removing the choice that is felt lets go of its object.
 void DebugWindow::remove_choice(const FeelRule& rule) {
-  const int64_t now_ns = report_.frame.stamp.stream_ns;
+  const int64_t now_ns = report_.stamp.stream_ns;
   if (rule.from_ns <= now_ns && now_ns < rule.to_ns && report_.click != 0) {
     link_.choose(std::nullopt);
   }

@@ -18,7 +18,7 @@ constexpr std::chrono::seconds kSavePatience{2};
 void FrameQueue::add(QueuedFrame frame) {
   // Without a flush, those of the run before are still shown first.
   if (!waiting_.empty()) {
-    const FrameStamp &now = frame.report.frame.stamp, &before = waiting_.back().report.frame.stamp;
+    const FrameStamp &now = frame.report.stamp, &before = waiting_.back().report.stamp;
     if (now.epoch != before.epoch && now.running_ns <= before.running_ns) waiting_.clear();
   }
   waiting_.push_back(std::move(frame));
@@ -26,8 +26,7 @@ void FrameQueue::add(QueuedFrame frame) {
 
 std::optional<QueuedFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
   const auto is_due = [&](const QueuedFrame& frame) {
-    return !running_ns || frame.report.frame.stamp.running_ns <= *running_ns ||
-           waiting_.size() > kMax;
+    return !running_ns || frame.report.stamp.running_ns <= *running_ns || waiting_.size() > kMax;
   };
   std::optional<QueuedFrame> shown;
   while (!waiting_.empty() && is_due(waiting_.front())) {

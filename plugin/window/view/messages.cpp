@@ -50,7 +50,7 @@ struct Members {
   /// What is shown of it.
   static auto of(DrawnFrame& r) {
     Frame& f = r.frame;
-    return std::tie(f.stamp, f.place, f.interval_ns, f.objects, f.wrench, f.felt_object, r.film,
+    return std::tie(r.stamp, f.place, f.interval_ns, f.objects, f.wrench, f.felt_object, r.film,
                     r.took_ns, r.visible, r.turn, r.points, r.lost, r.felt, r.motion, r.controller,
                     r.speed_px_s, r.click, r.touch, r.track);
   }

@@ -27,9 +27,9 @@ Eigen::Vector2d whole(const Eigen::Vector2d& position) {
 }  // namespace
 
 void Sightings::update(const DrawnFrame& report) {
-  const int64_t now_ns = report.frame.stamp.stream_ns;
+  const int64_t now_ns = report.stamp.stream_ns;
   if (!place_.is_continued_by(report)) seen_.clear();
-  place_ = {report.film, report.frame.stamp};
+  place_ = {report.film, report.stamp};
   for (const MovingObject& object : report.frame.objects) {
     if (object.points == 0) continue;
     auto known = std::find_if(seen_.begin(), seen_.end(),
@@ -51,7 +51,7 @@ const Sighting* Sightings::find(uint32_t id) const {
 }
 
 bool SceneChoices::update(const DrawnFrame& report) {
-  const ScenePlace before = std::exchange(place_, {report.film, report.frame.stamp});
+  const ScenePlace before = std::exchange(place_, {report.film, report.stamp});
   const int64_t now_ns = place_.stamp.stream_ns;
   if (now_ns < 0) return false;
   bool has_ended = false;
@@ -187,7 +187,7 @@ const StripMark* FilmStrip::at(double position, double reach) const {
 FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits) {
   FilmStrip strip;
-  const int64_t now_ns = report.frame.stamp.stream_ns;
+  const int64_t now_ns = report.stamp.stream_ns;
   if (report.film.name().empty() || now_ns < 0) return strip;
   const std::vector<FeelRule> before = rules ? rules->rules() : std::vector<FeelRule>();
   std::vector<FeelRule> now = before;

@@ -23,11 +23,11 @@ struct ScenePlace {
 
   /// Whether the frame `next` continues the scene. In reverse playback, none does.
   bool is_continued_by(const DrawnFrame& next) const {
-    return is_same_run(next) && scene.begin_ns == next.film.begin_ns && next.frame.stamp.rate > 0;
+    return is_same_run(next) && scene.begin_ns == next.film.begin_ns && next.stamp.rate > 0;
   }
   /// Whether nothing but a cut can be between this frame and `next`.
   bool is_same_run(const DrawnFrame& next) const {
-    return stamp.epoch == next.frame.stamp.epoch && scene.name() == next.film.name();
+    return stamp.epoch == next.stamp.epoch && scene.name() == next.film.name();
   }
 };
 

@@ -13,15 +13,12 @@
 #include <optional>
 #include <string>
 
-#include "core/analysis/frame.h"
 #include "core/wrench.h"
-#include "plugin/filter/engine/passing_frame.h"
-#include "plugin/filter/touch/relief_stream.h"
+#include "plugin/filter/engine/haptic_feed.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/output/haptic_output.h"
-#include "plugin/output/no_force.h"
-#include "plugin/timing/loop_queue.h"
+#include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/read_ahead.h"
+#include "plugin/tracks/track_loader.h"
 
 namespace spidar::filter {
 
@@ -67,36 +64,36 @@ class TrackReplay {
   int64_t given_ns_ = 0;     ///< end of what was given; backwards, its beginning
 };
 
-class TrackSource {
+class TrackRenderer {
  public:
-  /// All outlive this. `samples` takes those of the track; `times` knows when
-  /// the sink shows a frame.
-  TrackSource(const HapticOutput& output, LoopQueue<TrackBlock>& samples,
-              const WrenchBacklog& times, NoForceWatch& no_force, ReliefStream& reliefs)
-      : output_(output), samples_(samples), times_(times), no_force_(no_force), reliefs_(reliefs) {}
+  /// `feed` outlives this.
+  TrackRenderer(GstElement* element, HapticFeed& feed) : feed_(feed), felt_(element) {}
 
-  /// The samples of `track`, from the file `path`, are rendered, and frames are not analysed; null:
-  /// frames are analysed again. What was given of the previous track is still rendered: its frames
-  /// are on their way to the screen.
-  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
+  /// Another film begins, with this property `track`. Frames are analysed until take_loaded() finds
+  /// its track. What was given of the previous one is still rendered: its frames are on their way
+  /// to the screen.
+  void begin_stream(const std::string& track, const std::string& film);
+  /// For each frame, which lasts `frame_ns`, before has_track(). `has_rules`: see FeltTrack.
+  void take_loaded(int64_t frame_ns, bool has_rules);
+  /// Whether a track is rendered, and frames are not analysed.
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.
   std::string path() const;
-  /// The number of frames since set_track(). Any thread.
+  /// The number of frames of this track. Any thread.
   uint64_t frames() const { return frames_; }
 
   /// The report's wrench is the largest of the track while the frame is shown.
-  void process(const PassingFrame& frame, FrameReport& report);
+  void process(FrameReport& report);
   void pass_gap(const FrameStamp& stamp);
 
+  tracks::Loader loader;
+
  private:
+  void set_track(std::shared_ptr<ReadAhead> track, const std::string& path = {});
   void play(const FrameStamp& stamp, FrameReport& report);
 
-  const HapticOutput& output_;
-  LoopQueue<TrackBlock>& samples_;
-  const WrenchBacklog& times_;
-  NoForceWatch& no_force_;
-  ReliefStream& reliefs_;
+  HapticFeed& feed_;
+  tracks::FeltTrack felt_;
   TrackReplay replay_;
   mutable std::mutex path_mutex_;  ///< guards path_
   std::shared_ptr<const std::string> path_;

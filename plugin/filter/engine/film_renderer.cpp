@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/engine/live_source.h"
+#include "plugin/filter/engine/film_renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,6 @@
 
 namespace spidar::filter {
 namespace {
-
-/// With a fraction of 1 the result is the same bit for bit.
-Wrench scaled(const Wrench& wrench, double fraction) {
-  return {fraction * wrench.force_N, fraction * wrench.torque_Nm};
-}
 
 /// Makes the relief of a frame that was analysed, whose brightness is `luma` and which the sink
 /// shows at `shown_ns`. Fills in the fields of the report on touching. Streaming thread.
@@ -46,19 +41,19 @@ std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output) {
   return GripPointer(output.profile().geometry).position(loop->last.pose.position_m);
 }
 
-void LiveSource::reset() {
+void FilmRenderer::reset() {
   begin_run();
   pacer_.reset();
   gap_ns_.reset();
 }
 
-void LiveSource::run_out(GstClockTime running_time) {
+void FilmRenderer::run_out(GstClockTime running_time) {
   begin_run();
   if (!is_time(running_time)) return;  // scheduled wrenches expire without help
-  schedule_.add({static_cast<int64_t>(running_time), 0, Wrench()});
+  feed_.schedule.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
-void LiveSource::begin_gap(GstClockTime running_time) {
+void FilmRenderer::begin_gap(GstClockTime running_time) {
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);
   } else if (!gap_ns_) {  // while no frame comes, the force ends without help
@@ -66,7 +61,7 @@ void LiveSource::begin_gap(GstClockTime running_time) {
   }
 }
 
-void LiveSource::end_gap(int64_t running_ns) {
+void FilmRenderer::end_gap(int64_t running_ns) {
   constexpr int64_t kLate_ns = 10'000'000;
   if (!gap_ns_ || running_ns < *gap_ns_) return;
   // A frame that comes when the next one was due shows that there was no gap.
@@ -74,51 +69,57 @@ void LiveSource::end_gap(int64_t running_ns) {
   gap_ns_.reset();
 }
 
-void LiveSource::end_of_stream() {
+void FilmRenderer::end_of_stream() {
   if (!pacer_.has_frame()) return;
   run_out(static_cast<GstClockTime>(pacer_.next_ns()));
-  reliefs_.end(schedule_.at_sink_ns(pacer_.next_ns()));
+  feed_.reliefs.end(feed_.schedule.at_sink_ns(pacer_.next_ns()));
 }
 
 /// A frame of another run does not follow the one before.
-void LiveSource::follow(const FrameStamp& stamp) {
+void FilmRenderer::follow(const FrameStamp& stamp) {
   if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) begin_run();
+}
+
+/// The wrench of an analysed frame as it is rendered: turned, and weakened while it is touched.
+Wrench FilmRenderer::shown_wrench(const Frame& frame, const Orientation& turn) const {
+  const Wrench shown = turn.to_displayed(frame.wrench);
+  return {motion_fraction_ * shown.force_N, motion_fraction_ * shown.torque_Nm};
 }
 
 /// `shown` in place of the frame's own wrench. Between two pictures, a motion is measured as it is
 /// halfway between them; during a repeated one, the next picture is not there yet.
-void LiveSource::schedule(const Frame& frame, const PacedTime& time, bool moved,
-                          const Wrench& shown) {
+void FilmRenderer::schedule(const Frame& frame, const PacedTime& time, bool moved,
+                            const Wrench& shown) {
   if (!frame.is_continuation()) picture_ns_ = time.running_ns;
   const double apart_ns =
       frame.is_continuation()
           ? static_cast<double>(time.running_ns - picture_ns_)
-          : schedule_.rate_multiplier() * static_cast<double>(frame.interval_ns);
-  schedule_.add({time.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0), shown,
-                 frame.is_continuation(), std::llround(apart_ns) / 2});
+          : feed_.schedule.rate_multiplier() * static_cast<double>(frame.interval_ns);
+  feed_.schedule.add({time.running_ns, WrenchTimeline::hold_after(moved ? time.since_ns : 0), shown,
+                      frame.is_continuation(), std::llround(apart_ns) / 2});
 }
 
-void LiveSource::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
+void FilmRenderer::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   follow(stamp);
   const int64_t running_ns = stamp.running_ns;
-  const PacedTime time = pacer_.at(running_ns, schedule_.rate_multiplier());
+  const PacedTime time = pacer_.at(running_ns, feed_.schedule.rate_multiplier());
   // videorate makes such a gap of a frame that is shown again.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
-  const Wrench wrench = frame ? scaled(frame->wrench, motion_fraction_) : Wrench();
+  const Wrench wrench = frame ? shown_wrench(*frame, turn) : Wrench();
   if (frame) {
-    schedule(*frame, time, true, turn.to_displayed(wrench));
+    schedule(*frame, time, true, wrench);
   } else {
     run_out(static_cast<GstClockTime>(running_ns));
   }
-  no_force_.add(schedule_.at_sink_ns(running_ns), wrench, NoForceReason::kRepeatedFrames);
+  feed_.no_force.add(feed_.schedule.at_sink_ns(running_ns), wrench, NoForceReason::kRepeatedFrames);
   pacer_.advance(time);
 }
 
 /// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
-bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
-  follow(frame.stamp);
-  end_gap(frame.stamp.running_ns);
-  const FramePacer::Order order = pacer_.order(frame.stamp.running_ns, frame.video, frame.segment);
+bool FilmRenderer::follows(const PassingFrame& frame, FrameReport& report) {
+  follow(report.stamp);
+  end_gap(report.stamp.running_ns);
+  const FramePacer::Order order = pacer_.order(report.stamp.running_ns, frame.video, frame.segment);
   if (order == FramePacer::Order::kTooSoon) {
     report.fault = FrameReport::Fault::kSameTimestamp;
     return false;
@@ -129,8 +130,8 @@ bool LiveSource::follows(const PassingFrame& frame, FrameReport& report) {
 }
 
 /// Finds the picture of a frame and analyses it. False when it has none.
-bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
-                         FrameReport& report) {
+bool FilmRenderer::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
+                           FrameReport& report) {
   const std::optional<touch::DepthLayout> packed = frame.settings.touch.packed();
   const ImageView picture = packed ? touch::picture_half(luma, *packed) : luma;
   const double aspect = pixel_aspect(frame.video.info);
@@ -162,9 +163,9 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   const ImageView square = square_.view(picture, aspect);
   settings.area.part = in_square_pixels(area, picture.width, square.width);
   analyzer_.configure(settings);
-  report.frame =
-      analyzer_.analyze(square, paced_ns, std::max<int64_t>(frame.stamp.stream_ns, 0), report.turn);
-  report.frame.wrench = report.turn.to_displayed(scaled(report.frame.wrench, motion_fraction_));
+  report.frame = analyzer_.analyze(square, paced_ns, std::max<int64_t>(report.stamp.stream_ns, 0),
+                                   report.turn);
+  report.frame.wrench = shown_wrench(report.frame, report.turn);
   report.no_force = reason_in_frame(report.frame, frame.settings.analyzer.motion);
   to_stored_pixels(report.frame, picture.width);
   // The picture is the left or the upper half.
@@ -174,7 +175,7 @@ bool LiveSource::analyze(const PassingFrame& frame, const ImageView& luma, int64
   return true;
 }
 
-void LiveSource::process(const PassingFrame& frame, FrameReport& report) {
+void FilmRenderer::process(const PassingFrame& frame, FrameReport& report) {
   if (!follows(frame, report)) return;
   const bool has_size = FrameLuma::takes(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
@@ -182,8 +183,8 @@ void LiveSource::process(const PassingFrame& frame, FrameReport& report) {
     report.fault = has_size ? FrameReport::Fault::kTooSmall : FrameReport::Fault::kWrongSize;
     return;
   }
-  const int64_t shown_ns = schedule_.at_sink_ns(frame.stamp.running_ns);
-  const PacedTime time = pacer_.at(frame.stamp.running_ns, schedule_.rate_multiplier());
+  const int64_t shown_ns = feed_.schedule.at_sink_ns(report.stamp.running_ns);
+  const PacedTime time = pacer_.at(report.stamp.running_ns, feed_.schedule.rate_multiplier());
   const ImageView luma = luma_.view(frame.video);
   const TouchProperties& touch = frame.settings.touch;
   // This fraction of the film's motion is rendered, reported and shown in addition to touch.
@@ -193,10 +194,10 @@ void LiveSource::process(const PassingFrame& frame, FrameReport& report) {
 
   const bool moved = report.frame.interval_ns > 0 || report.frame.is_continuation();
   pacer_.push(time, moved);
-  no_force_.add(shown_ns, report.frame.wrench, report.no_force);
-  no_force_.set_touching(touch.kind != TouchProperties::Kind::kOff);
+  feed_.no_force.add(shown_ns, report.frame.wrench, report.no_force);
+  feed_.no_force.set_touching(touch.kind != TouchProperties::Kind::kOff);
   if (!time.in_place) {
-    touch_frame(frame, luma, shown_ns, output_, reliefs_, report);
+    touch_frame(frame, luma, shown_ns, feed_.output, feed_.reliefs, report);
     schedule(report.frame, time, moved, report.frame.wrench);
   }
 }

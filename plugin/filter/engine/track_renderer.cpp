@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/filter/engine/track_source.h"
+#include "plugin/filter/engine/track_renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -188,7 +188,7 @@ Wrench TrackReplay::largest(const FrameStamp& frame) const {
   return largest;
 }
 
-void TrackSource::set_track(std::shared_ptr<ReadAhead> track, const std::string& path) {
+void TrackRenderer::set_track(std::shared_ptr<ReadAhead> track, const std::string& path) {
   {
     const std::lock_guard<std::mutex> lock(path_mutex_);
     path_ = track ? std::make_shared<const std::string>(path) : nullptr;
@@ -197,32 +197,48 @@ void TrackSource::set_track(std::shared_ptr<ReadAhead> track, const std::string&
   frames_ = 0;
 }
 
-std::string TrackSource::path() const {
+std::string TrackRenderer::path() const {
   const std::lock_guard<std::mutex> lock(path_mutex_);
   return path_ ? *path_ : "";
 }
 
-void TrackSource::play(const FrameStamp& stamp, FrameReport& report) {
-  no_force_.set_touching(false);
+void TrackRenderer::begin_stream(const std::string& track, const std::string& film) {
+  set_track(nullptr);
+  felt_.reset();
+  loader.begin(track, film);
+}
+
+void TrackRenderer::take_loaded(int64_t frame_ns, bool has_rules) {
+  if (const std::optional<tracks::LoadedTrack> loaded = loader.take()) {
+    // The wrenches of frames that came before it stay: some of them may be the end of another film.
+    if (auto blocks = felt_.judge(*loaded, frame_ns, has_rules)) {
+      set_track(std::move(blocks), loaded->path);
+    }
+  }
+  if (!felt_.check()) set_track(nullptr);
+}
+
+void TrackRenderer::play(const FrameStamp& stamp, FrameReport& report) {
+  feed_.no_force.set_touching(false);
   FrameStamp shown = stamp;
-  shown.running_ns = times_.at_sink_ns(stamp.running_ns);
-  shown.rate *= times_.rate_multiplier();
+  shown.running_ns = feed_.schedule.at_sink_ns(stamp.running_ns);
+  shown.rate *= feed_.schedule.rate_multiplier();
   ++frames_;
-  replay_.play(shown, [this](const TrackBlock& block) { samples_.add(block); });
+  replay_.play(shown, [this](const TrackBlock& block) { feed_.track_samples.add(block); });
   report.frame.wrench = replay_.largest(shown);
   report.frame.interval_ns = stamp.length_ns;  // so long it is there
-  report.no_force = reason_in_track(report.frame.wrench, output_.snapshot());
+  report.no_force = reason_in_track(report.frame.wrench, feed_.output.snapshot());
   const bool is_weak = report.no_force == NoForceReason::kTooWeak;
-  no_force_.add(shown.running_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
+  feed_.no_force.add(shown.running_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);
 }
 
-void TrackSource::process(const PassingFrame& frame, FrameReport& report) {
+void TrackRenderer::process(FrameReport& report) {
   report.track = path_;
-  play(frame.stamp, report);
-  reliefs_.end(times_.at_sink_ns(frame.stamp.running_ns));
+  play(report.stamp, report);
+  feed_.reliefs.end(feed_.schedule.at_sink_ns(report.stamp.running_ns));
 }
 
-void TrackSource::pass_gap(const FrameStamp& stamp) {
+void TrackRenderer::pass_gap(const FrameStamp& stamp) {
   FrameReport unread;
   play(stamp, unread);
 }

@@ -10,27 +10,29 @@
 
 #include "core/analysis/motion_analyzer.h"
 #include "core/analysis/square_pixel_resampler.h"
-#include "plugin/filter/engine/passing_frame.h"
-#include "plugin/filter/touch/relief_stream.h"
+#include "plugin/filter/engine/haptic_feed.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/output/haptic_output.h"
-#include "plugin/output/no_force.h"
+#include "plugin/properties/motion_properties.h"
 #include "plugin/timing/frame_pacer.h"
-#include "plugin/timing/loop_queue.h"
 
 namespace spidar::filter {
 
 /// Where the grip points at the picture as it is shown; nothing while no device runs.
 std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output);
 
+/// A frame that passes the element.
+struct PassingFrame {
+  const GstVideoFrame& video;
+  const GstSegment& segment;
+  const FrameSettings& settings;
+};
+
 /// Streaming thread.
-class LiveSource {
+class FilmRenderer {
  public:
-  /// All outlive this. `schedule` takes the wrenches.
-  LiveSource(WrenchBacklog& schedule, NoForceWatch& no_force, ReliefStream& reliefs,
-             const HapticOutput& output)
-      : schedule_(schedule), no_force_(no_force), reliefs_(reliefs), output_(output) {}
+  /// `feed` outlives this.
+  explicit FilmRenderer(HapticFeed& feed) : feed_(feed) {}
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
@@ -59,13 +61,11 @@ class LiveSource {
   bool follows(const PassingFrame& frame, FrameReport& report);
   bool analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                FrameReport& report);
+  Wrench shown_wrench(const Frame& frame, const Orientation& turn) const;
   void end_gap(int64_t running_ns);
   void run_out(GstClockTime running_time);
 
-  WrenchBacklog& schedule_;
-  NoForceWatch& no_force_;
-  ReliefStream& reliefs_;
-  const HapticOutput& output_;
+  HapticFeed& feed_;
   FrameLuma luma_;
   SquarePixelResampler square_;
   MotionAnalyzer analyzer_;
