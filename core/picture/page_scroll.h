@@ -11,10 +11,11 @@
 
 namespace spidar {
 
-/// A page scrolls up or down by whole pixels, and what it shows stays the same to the last bit. In
-/// a film, noise and coding change what moves. A few patches therefore show it: a page scrolls when
-/// all that have changed in some columns or rows of them are found again, unchanged and as far
-/// away. For one thread at a time; does not allocate.
+/// A page scrolls up or down by whole pixels, and what it shows stays the same to the last bit,
+/// while the noise of a camera changes what moves. A few patches therefore show it: a page scrolls
+/// when all that have changed in some columns or rows of them are found again, unchanged and as far
+/// away. So does a cartoon without noise that pans up or down by whole pixels. For one thread at a
+/// time; does not allocate.
 class PageScroll {
  public:
   /// Whether the picture shows the previous one scrolled. One of another size or format shows
