@@ -393,7 +393,8 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
   if (!candidate) stayed_ = 0;
   const bool is_confirmed = candidate && confirm(*candidate);
   if (area_) return follow(candidate, is_confirmed, running_ns);
-  const bool has_searched = searches_since_ns_ && running_ns - *searches_since_ns_ >= kSearch_ns;
+  const int64_t searched_ns = running_ns - searches_since_ns_.value_or(running_ns);
+  const bool has_searched = searched_ns >= kSearch_ns;
   // All that moves while a page does is no film.
   const bool may_be_page = searches_since_ns_ && !has_searched && candidate &&
                            candidate->part != searches_from_ &&
@@ -405,8 +406,9 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
     crossed_ = 0;
     searches_since_ns_.reset();
     is_page_ = false;
-  } else if (has_searched && !is_page_) {
+  } else if (searched_ns >= (is_page_ ? kRests_ns : kSearch_ns)) {
     searches_since_ns_.reset();
+    is_page_ = false;
   }
   begins_ = !area_ && compared_ <= 2 * kStays && stayed_ > 0;
 }

@@ -24,7 +24,8 @@ namespace spidar {
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
 /// is therefore kept until something crosses its sides: another film, or a page that moves. Then
 /// the film is looked for anew, for up to kSearch_ns; if none is found, it is all of the picture.
-/// After a page has scrolled, there is no film until one is found, or most of the picture changes.
+/// After a page has scrolled, there is no film until one is found, most of the picture changes, or
+/// nothing has scrolled for kRests_ns.
 ///
 /// For one thread at a time. Allocates only when the size changes.
 class AreaFinder {

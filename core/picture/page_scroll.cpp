@@ -21,6 +21,13 @@ constexpr int kMinScrolled = 8;
 /// takes the picture for a cut.
 constexpr int kHeightsOfStep = 4;
 
+/// Whether the pixels of a patch's line differ. Without that, every edge of two plain parts looks
+/// like every other.
+bool varies(const uint8_t* line, int bytes) {
+  return std::memcmp(line, line + bytes, static_cast<size_t>(PageScroll::kPatch_bytes - bytes)) !=
+         0;
+}
+
 uint64_t begin_of(const uint8_t* line) {
   uint64_t begin;
   std::memcpy(&begin, line, sizeof begin);
@@ -42,8 +49,10 @@ void PageScroll::keep(const ImageView& picture) {
       patch.has_detail = false;
       patch.x = std::min((2 * column + 1) * width_ / (2 * kAcross), width_ - kPatch_bytes);
       for (patch.y = top; patch.y < below && !patch.has_detail; ++patch.y) {
-        patch.has_detail = std::memcmp(picture.at(patch.x, patch.y),
-                                       picture.at(patch.x, patch.y + 1), kPatch_bytes) != 0;
+        const uint8_t* const upper = picture.at(patch.x, patch.y);
+        const uint8_t* const lower = picture.at(patch.x, patch.y + 1);
+        patch.has_detail = std::memcmp(upper, lower, kPatch_bytes) != 0 &&
+                           (varies(upper, bytes_) || varies(lower, bytes_));
       }
       if (!patch.has_detail) continue;
       --patch.y;

@@ -24,13 +24,14 @@ class PageScroll {
   /// The next picture is not compared with this one.
   void reset() { width_ = 0; }
 
+  static constexpr int kPatch_bytes = 16;
+
  private:
   static constexpr int kAcross = 8, kDown = 8;
-  static constexpr int kPatch_bytes = 16;
   /// The beginning of two lines.
   struct Patch {
     int x = 0, y = 0;
-    bool has_detail = false;  ///< the second line differs from the first one
+    bool has_detail = false;  ///< the lines differ, and one of them is not plain
     std::array<uint8_t, kPatch_bytes> upper, lower;
   };
 

@@ -349,6 +349,21 @@ TEST(AreaFinder, KnowsThatAPageThatScrollsIsNoCamera) {
   }
 }
 
+/// What looked like a page for a moment may be all of a film whose camera rests.
+TEST(AreaFinder, ForgetsAPageThatHasNotScrolledForTwoSeconds) {
+  AreaFinder finder;
+  Picture picture(kWidth, kHeight);
+  constexpr int kScrolls = 10,
+                kRests = kScrolls + static_cast<int>(AreaFinder::kRests_ns / kPicture_ns);
+  for (int n = 0; n <= kRests + 1; ++n) {
+    picture.fill([&](double x, double y) { return disc(n, x, y); });
+    finder.look(picture.view(), n * kPicture_ns, n == kScrolls);
+    EXPECT_EQ(finder.is_page(), n >= kScrolls && n < kRests) << n;
+    EXPECT_FALSE(finder.area()) << n;
+  }
+  EXPECT_FALSE(finder.is_searching());
+}
+
 TEST(AreaFinder, StaysWithAFilmUntilItHasRestedForTwoSeconds) {
   const Part second{10, 10, 150, 85}, first{170, 60, 250, 150};
   const auto both = [&](int first_rests) {

@@ -105,10 +105,14 @@ TEST(PageScroll, IsNoneOfWhatElseMoves) {
     return std::hypot(x - 400, at_y) < 60 ? kThing.at(x, at_y) : desktop(0, x, y);
   };
   const auto sideways = [](int n, double x, double y) { return page(x + 6.0 * n, y); };
+  const auto bars = [](int n, double, double y) {
+    return std::fmod(y + 7.0 * n, 120) < 60 ? 200.0 : 40.0;
+  };
   const auto fractions = [](int n, double x, double y) { return page(x, y + 4.5 * n); };
   for (const auto& [name, scene] : {std::pair<const char*, Scene>{"a page at rest", scrolled(0)},
                                     {"a camera", noisy(pan)},
                                     {"an object", disc},
+                                    {"plain bars", bars},
                                     {"a page that moves sideways", sideways},
                                     {"by half a pixel", fractions}}) {
     EXPECT_EQ(scrolls_of(drawn(scene, 4)), 0) << name;
