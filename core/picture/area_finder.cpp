@@ -107,7 +107,7 @@ void AreaFinder::begin(const ImageView& picture) {
   rows_ = (height_ + kAreaCell_px - 1) / kAreaCell_px;
   cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
   open_.reserve(cells_.size());
-  begins_ = is_page_ = skips_ = false;
+  begins_ = is_page_ = scrolls_ = skips_ = false;
   stayed_ = crossed_ = lasting_pixels_ = 0;
   skipped_ = 0;
   area_.reset();
@@ -373,15 +373,16 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
     compared_ = 0;
     return;
   }
-  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || stayed_ > 0;
+  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || stayed_ > 0 || scrolls_;
   skips_ = !expects && !area_ && !scrolls && !skips_;
   if (skips_) return;
-  const bool shows_other = take(picture);
-  if (scrolls) {
+  if (!take(picture) && !scrolls) return;
+  const bool has_scrolled = std::exchange(scrolls_, scrolls);
+  if (scrolls && has_scrolled) {
     search(running_ns);
     is_page_ = true;
   }
-  if (!shows_other || scrolls) return;
+  if (scrolls) return;
   if (area_ && crossed_sides(changed_, 255) > crossed_sides(lasting_, kLasts)) search(running_ns);
   if (area_) {
     crossed_ = crossed_sides(lasting_, kLasts) >= 2 ? crossed_ + 1 : 0;

@@ -24,8 +24,9 @@ namespace spidar {
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
 /// is therefore kept until something crosses its sides: another film, or a page that moves. Then
 /// the film is looked for anew, for up to kSearch_ns; if none is found, it is all of the picture.
-/// After a page has scrolled, there is no film until one is found, most of the picture changes, or
-/// nothing has scrolled for kRests_ns.
+/// After a page has scrolled from picture to picture, there is no film until one is found, most of
+/// the picture changes, or nothing has scrolled for kRests_ns. A single picture that is the one
+/// before, scrolled, is left out: a film without noise may have it.
 ///
 /// For one thread at a time. Allocates only when the size changes.
 class AreaFinder {
@@ -38,16 +39,16 @@ class AreaFinder {
   const std::optional<PicturePart>& area() const { return area_; }
   /// It is not known where the film is: what is around it moves, or has just changed, or the first
   /// pictures show a rectangle.
-  bool is_searching() const { return begins_ || searches_since_ns_.has_value(); }
+  bool is_searching() const { return begins_ || scrolls_ || searches_since_ns_.has_value(); }
   /// It searches in a page.
-  bool is_page() const { return is_page_; }
+  bool is_page() const { return is_page_ || scrolls_; }
 
   /// Another film begins.
   void reset() {
     width_ = 0;
     area_.reset();
     searches_since_ns_.reset();
-    begins_ = is_page_ = false;
+    begins_ = is_page_ = scrolls_ = false;
   }
 
   /// How many pictures a rectangle must stay before it is believed. An object that is a rectangle
@@ -94,6 +95,7 @@ class AreaFinder {
   size_t skipped_ = 0;  ///< repeated pictures in a row
   bool skips_ = false;  ///< the last picture was not looked at
   bool is_page_ = false;
+  bool scrolls_ = false;  ///< the newest picture is the one before, scrolled
   int columns_ = 0;
   int rows_ = 0;
   std::vector<uint8_t> cells_;  ///< number of lasting pixels in each

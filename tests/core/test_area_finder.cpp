@@ -357,8 +357,8 @@ TEST(AreaFinder, ForgetsAPageThatHasNotScrolledForTwoSeconds) {
                 kRests = kScrolls + static_cast<int>(AreaFinder::kRests_ns / kPicture_ns);
   for (int n = 0; n <= kRests + 1; ++n) {
     picture.fill([&](double x, double y) { return disc(n, x, y); });
-    finder.look(picture.view(), n * kPicture_ns, n == kScrolls);
-    EXPECT_EQ(finder.is_page(), n >= kScrolls && n < kRests) << n;
+    finder.look(picture.view(), n * kPicture_ns, n == kScrolls - 1 || n == kScrolls);
+    EXPECT_EQ(finder.is_page(), n >= kScrolls - 1 && n < kRests) << n;
     EXPECT_FALSE(finder.area()) << n;
   }
   EXPECT_FALSE(finder.is_searching());
