@@ -29,7 +29,7 @@ SteppedPipeline::SteppedPipeline(const std::string& launch) {
   sink_ = gst_bin_get_by_name(GST_BIN(pipeline_), "sink");
   inbox_ = std::make_unique<MessageInbox>(pipeline_);
   state_ = &gst_spidar_motion_state(GST_SPIDAR_MOTION(element_));
-  state_->output.set_manual([this] { return monotonic_ns(); });
+  state_->feed.output.set_manual([this] { return monotonic_ns(); });
   GstPad* pad = gst_element_get_static_pad(sink_, "sink");
   const auto take = [](GstPad* sink_pad, GstPadProbeInfo* info, gpointer user) {
     GstEvent* event = gst_pad_get_sticky_event(sink_pad, GST_EVENT_SEGMENT, 0);
@@ -73,7 +73,7 @@ void SteppedPipeline::wait_for_state() {
     }
     g_error("the pipeline does not change state: %s", error ? error->message : "no message");
   }
-  state_->output.follower().refresh();
+  state_->feed.output.follower().refresh();
 }
 
 void SteppedPipeline::set_state(GstState state) {
@@ -135,7 +135,7 @@ void SteppedPipeline::retime(std::function<GstClockTime(int, GstClockTime)> pts)
 }
 
 HapticLoop& SteppedPipeline::loop() {
-  return state_->output.session()->loop();
+  return state_->feed.output.session()->loop();
 }
 
 TickRecord SteppedPipeline::tick() {
@@ -157,7 +157,7 @@ int64_t SteppedPipeline::half_frame_ns(GstClockTime next) {
   const bool has_motion = frame != wrenches_.end() && frame != wrenches_.begin() &&
                           !frame->second.stacked().isZero(0) && state_->track.path().empty();
   if (!has_motion) return 0;
-  const WrenchBacklog& schedule = state_->schedule;
+  const WrenchBacklog& schedule = state_->feed.schedule;
   const auto shown_ns = static_cast<int64_t>(shown_);
   const auto until_ns = static_cast<int64_t>(next) - static_cast<int64_t>(now());
   const int64_t due_ns = schedule.at_sink_ns(shown_ns) - schedule.skipped_ns();
@@ -178,7 +178,7 @@ TickRecord SteppedPipeline::step(guint waiters, const std::function<void()>& bes
   shown_ = taken_;
   early_ns_ = next > now() ? half_frame_ns(next) : 0;
   if (next > now()) gst_test_clock_set_time(clock_, next - static_cast<GstClockTime>(early_ns_));
-  state_->output.follower().refresh();
+  state_->feed.output.follower().refresh();
   const TickRecord record = tick();
   if (beside) beside();
   if (early_ns_ > 0) gst_test_clock_set_time(clock_, next);
@@ -190,7 +190,7 @@ TickRecord SteppedPipeline::idle(GstClockTime duration) {
   TickRecord record;
   for (const GstClockTime end = now() + duration; now() + GST_MSECOND <= end;) {
     gst_test_clock_advance_time(clock_, GST_MSECOND);
-    state_->output.follower().refresh();
+    state_->feed.output.follower().refresh();
     record = tick();
   }
   return record;
@@ -200,7 +200,8 @@ TickRecord SteppedPipeline::stand_still(GstClockTime duration) {
   TickRecord record;
   for (GstClockTime since = 0; since < duration; since += GST_MSECOND) {
     monotonic_less_clock_ns_ += GST_MSECOND;
-    if (since % (10 * GST_MSECOND) == 0) state_->output.follower().refresh();  // as its thread does
+    if (since % (10 * GST_MSECOND) == 0)
+      state_->feed.output.follower().refresh();  // as its thread does
     record = tick();
   }
   return record;
