@@ -108,8 +108,7 @@ TEST(Margins, AreNotWhatIsAroundALargeObject) {
                                                  : kBackground.at(at.x(), at.y());
   });
   // It is the same object for two frames after it has turned round.
-  // That it is no film in a frame is known after 2 AreaFinder::kStays pictures.
-  for (int n = 2 * AreaFinder::kStays + 1; n < kFrames; ++n) {
+  for (int n = static_cast<int>(kKnown); n < kFrames; ++n) {
     if ((n + 4) % 5 < 2) continue;
     EXPECT_NEAR(felt_px[static_cast<size_t>(n)].x(), position(n) - position(n - 1), 0.15) << n;
   }
