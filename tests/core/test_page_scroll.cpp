@@ -148,7 +148,7 @@ TEST(PageScroll, IsNotFelt) {
     MotionAnalyzer analyzer(settings);
     Picture picture(kWidth, kHeight);
     for (int n = 0; n < kPictures; ++n) {
-      picture.fill([&](double x, double y) { return scene(n, x, y); });
+      picture.fill([n, &draw = scene](double x, double y) { return draw(n, x, y); });
       const Frame& frame = analyzer.analyze(picture.view(), n * kPicture_ns);
       ASSERT_TRUE(frame.wrench.stacked().isZero(0)) << name << " " << n;
       if (n >= kBegin) {
