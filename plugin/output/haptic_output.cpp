@@ -3,6 +3,7 @@
 #include "plugin/output/haptic_output.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <gst/gst.h>
@@ -249,7 +250,7 @@ void HapticOutput::set_max_force(double max_force_N) {
     if (!(max_force_N > most_force_N_) || said_too_much_) return;
     said_too_much_ = true;
     too_much_for = most_force_of_;
-    most_N = most_force_N_;
+    most_N = std::floor(10 * most_force_N_) / 10;  // what is said is accepted
   }
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                       ("max-force=%g is more than the %.1f N that %s can give in every direction "

@@ -6,7 +6,8 @@
         device.push((1, 0, 0))      # newtons: to the right, up, towards the viewer; holds for 100 ms
 
 Needs nothing but the library and Python. What the functions do in detail, and the units, are in the header
-gst-spidar/c-api.h. A wrong argument raises ValueError, all else RuntimeError, with what would be right."""
+gst-spidar/c-api.h. A wrong number or shape raises ValueError, a wrong type TypeError, all else, as an unknown device,
+RuntimeError, with what would be right."""
 
 import threading
 import time
