@@ -86,7 +86,7 @@ struct ObjectLife {
   /// often in the next, it moves unlike before and is out of sight. Afterwards it is no faster, and
   /// not further away than it could get.
   bool has_bounced_to(const Region& other, double interval_s) const {
-    constexpr double kMaxPictures = 2;
+    constexpr double kMaxPictures = 2;  // that with the impact, and the next
     constexpr double kMaxError_px = kMaxOff_px;
     const double speed_px_s = expected.velocity_px_s.norm();
     if (since_s > (kMaxPictures + 0.5) * interval_s || speed_px_s * interval_s < kMaxError_px) {
