@@ -14,6 +14,9 @@
  * Since: 0.1
  */
 #include <atomic>
+#include <cstdio>
+#include <cstdlib>
+#include <unistd.h>
 
 #define GST_USE_UNSTABLE_API
 #include <gst/gst.h>
@@ -39,6 +42,11 @@ static bool is_playbin(GstElement* element) {
   return g_strcmp0(name, "playbin") == 0 || g_strcmp0(name, "playbin3") == 0;
 }
 
+/// Of GStreamer itself, which spidar-feel FILM runs.
+static bool is_own_player() {
+  return g_strcmp0(g_get_prgname(), "gst-play-1.0") == 0;
+}
+
 static void set_filter(GstElement* element) {
   GstElement* before = nullptr;
   guint flags = 0;
@@ -46,8 +54,8 @@ static void set_filter(GstElement* element) {
   const spidar::Ref<GstElement> own(before);
   // The application's own, or the one that this tracer set for the previous film.
   if (own || (flags & kPlayVideo) == 0) return;
-  const bool is_own_player = g_strcmp0(g_get_prgname(), "gst-play-1.0") == 0;
-  GstElement* filter = gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE), is_own_player);
+  GstElement* filter =
+      gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE), is_own_player());
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 
@@ -75,7 +83,25 @@ static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
   }
 }
 
+static std::atomic<bool> has_failed{false};
+
+/// gst-play-1.0 tells of a film that it cannot play, and ends with status 0.
+static void end_with_status() {
+  if (!has_failed) return;
+  std::fflush(nullptr);
+  _exit(1);
+}
+
+/// What an element in a player reports is no error of the film before the player reports it.
+static void before_message(GstTracer*, GstClockTime, GstElement* element, GstMessage* message) {
+  if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_ERROR || !is_playbin(element)) return;
+  has_failed = has_failed || is_own_player();
+}
+
 static void gst_spidar_feel_tracer_init(GstSpidarFeelTracer* self) {
+  std::atexit(end_with_status);
+  gst_tracing_register_hook(GST_TRACER(self), "element-post-message-pre",
+                            G_CALLBACK(before_message));
   gst_tracing_register_hook(GST_TRACER(self), "element-change-state-pre",
                             G_CALLBACK(before_state_change));
 }

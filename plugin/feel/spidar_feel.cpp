@@ -20,6 +20,7 @@
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/feel/playlist.h"
+#include "plugin/follow/felt_element.h"
 #include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/own_plugins.h"
@@ -287,6 +288,16 @@ void run_films(char** films) {
     fail(kCannotRun, error.what());
   }
   constexpr const char* kPlayer = "gst-play-1.0";
+  const bool has_sink = std::any_of(named.begin(), named.end(), [](const std::string& word) {
+    return word.rfind("--videosink", 0) == 0;
+  });
+  if (!has_sink && !spidar::follow::has_display()) {
+    std::fputs(
+        "spidar-feel: there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, "
+        "as in a remote session; without a picture, it is felt with --videosink=\"fakesink "
+        "sync=true\" behind it\n",
+        stderr);
+  }
   std::vector<char*> words{const_cast<char*>(kPlayer)};
   for (std::string& film : named) words.push_back(film.data());
   words.push_back(nullptr);

@@ -66,6 +66,7 @@ struct MotionState {
   StreamOrientation orientation;
   FilmRenderer film{feed};
   FrameTrace trace;
+  std::string next_trace;  ///< its file, until it is opened; empty: none
   BusWarnings warnings;
 
  private:

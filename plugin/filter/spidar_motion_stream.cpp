@@ -152,6 +152,18 @@ static bool same_playback(const GstSegment& a, const GstSegment& b) {
          a.time == b.time && a.offset == b.offset;
 }
 
+/// Not before there is video: a film that is not there leaves the trace of the last one as it is.
+static void open_trace(GstSpidarMotionFilter* self) {
+  MotionState& state = *self->state;
+  const std::string trace = std::exchange(state.next_trace, "");
+  const std::string reason = trace.empty() ? "" : state.trace.open(trace);
+  if (!reason.empty()) {
+    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
+                        ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),
+                        ("The video continues without it."));
+  }
+}
+
 static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* event) {
   GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
@@ -178,6 +190,9 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       // What is scheduled stays: without a flush, its frames still wait for the screen.
       state.begin_epoch();
       state.orientation.begin_stream();
+      break;
+    case GST_EVENT_CAPS:
+      open_trace(self);
       break;
     case GST_EVENT_TAG: {
       GstTagList* tags;
@@ -259,19 +274,13 @@ static gboolean gst_spidar_motion_start(GstBaseTransform* trans) {
   GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
   GST_OBJECT_LOCK(self);
-  const std::string trace = state.settings.trace;
+  state.next_trace = state.settings.trace;
   GST_OBJECT_UNLOCK(self);
-  GST_DEBUG_OBJECT(self, "start; trace: %s", trace.empty() ? "none" : trace.c_str());
+  GST_DEBUG_OBJECT(self, "start");
   state.warnings.start();
   state.warnings.check_bins();
   state.stats.reset();
   state.reset();
-  const std::string reason = trace.empty() ? "" : state.trace.open(trace);
-  if (!reason.empty()) {
-    GST_ELEMENT_WARNING(self, RESOURCE, OPEN_WRITE,
-                        ("Cannot write the trace '%s': %s.", trace.c_str(), reason.c_str()),
-                        ("The video continues without it."));
-  }
   return TRUE;
 }
 

@@ -3,6 +3,7 @@
 #include "plugin/output/device_warnings.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <utility>
 
@@ -59,7 +60,8 @@ std::string directions_text(const std::array<bool, 3>& force) {
 /// "force to the sides, up and down, up to 3.0 N (1 N by max-force), no torque"
 std::string rendered_text(const GripAbilities& can, double max_force_N) {
   char most[64];
-  const int length = std::snprintf(most, sizeof most, "%.1f N", can.largest_force_N);
+  const double accepted_N = std::floor(10 * can.largest_force_N) / 10;  // by max-force
+  const int length = std::snprintf(most, sizeof most, "%.1f N", accepted_N);
   if (max_force_N < can.largest_force_N) {
     std::snprintf(most + length, sizeof most - static_cast<size_t>(length), " (%g N by max-force)",
                   max_force_N);

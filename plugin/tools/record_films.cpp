@@ -290,6 +290,9 @@ class FilmBatch {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return;
+  if (fs::exists(folder, error)) {
+    throw UsageError("--folder " + folder.string() + ": is a file, and tracks go into a folder");
+  }
   const fs::path above = fs::absolute(folder).lexically_normal();
   const fs::path parent = (above.has_filename() ? above : above.parent_path()).parent_path();
   if (!fs::is_directory(parent, error)) {

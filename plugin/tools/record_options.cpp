@@ -118,6 +118,14 @@ std::string one_line(const std::map<std::string, std::string>& settings) {
   return line;
 }
 
+/// Other programs name what they write after what they read.
+void expect_no_output(const std::string& film) {
+  const std::string end = fs::path(film).extension().string();
+  if ((end != ".flac" && end != ".mka" && end != ".wav") || fs::exists(film)) return;
+  throw UsageError(film + ": there is no such film; a track is named after its film, " +
+                   "FILM.haptic.flac, and --folder says where it goes");
+}
+
 }  // namespace
 
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film) {
@@ -196,7 +204,10 @@ fs::path RecordOptions::file_of(const ListedFilm& film) const {
 
 void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
-  for (const std::string& film : names) expect_no_property(film, "record FILM");
+  for (const std::string& film : names) {
+    expect_no_property(film, "record FILM");
+    expect_no_output(film);
+  }
   options.films = list_films(names, options.left_out);
   options.properties = parse_record_properties(properties, options.films.size());
 }

@@ -14,7 +14,7 @@ FEEL = os.environ["SPIDAR_FEEL"]
 
 class Command(track_case.TrackCase):
     def feel(self, line, status=0, env=None):
-        return self.run_in_folder(f"{env or ''} {FEEL} {line}", status)
+        return self.run_in_folder(f"DISPLAY=:0 {env or ''} {FEEL} {line}", status)
 
     def test_wrong_usage_is_named(self):
         for arguments, status, said in (

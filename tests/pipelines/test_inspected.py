@@ -84,6 +84,8 @@ class Extract(gst_case.GstCase):
             self.assertEqual(self.path(name).read_text().count("\n"), rows)
         # It is free again afterwards, and begins anew.
         self.assertEqual(self.play(f"{film} {trace('a.csv')} ! fakesink").warnings, [])
+        # A mistyped film leaves it as it is.
+        self.assertTrue(self.play(f"filesrc location=none.avi ! decodebin ! {trace('a.csv')} ! fakesink").error)
         self.assertEqual(self.path("a.csv").read_text().count("\n"), 11)
 
     def test_nothing_is_told_behind_a_queue_or_of_a_pipeline_that_is_paused(self):

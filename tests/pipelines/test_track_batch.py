@@ -67,6 +67,7 @@ class Batch(track_case.TrackCase):
         self.assertIn("is there", self.spidartrack("record", "a film.avi", "b.avi"))
         self.assertEqual(os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns, before)
         self.assert_said("there is no such file", "record", "none.avi")
+        self.assert_said("a track is named after its film", "record", "a film.avi", "none.flac", status=2)
         self.spidartrack("record", "--format", "wav", "b.avi", "--", "max-force=1")
         for sample in self.samples("b.avi.haptic.wav"):
             self.assertLessEqual(sum(value * value for value in sample[:3]) ** .5, .1 + 1e-6)
@@ -114,6 +115,7 @@ class Batch(track_case.TrackCase):
         self.assertEqual((again[3]["result"], again[3]["felt"]), ("there", lines[0]["felt"]))
         self.path("none").mkdir()
         self.assert_said("none: this folder has no film", "record", "none")
+        self.assert_said("in/small.avi: is a file, and tracks go into a folder", "record", "in", "--folder", "in/small.avi", status=2)
         # A share that is not mounted is not written to under its name.
         self.assert_said("away/tracks: is not made, because there is no folder ", "record", "in", "--folder", "away/tracks")
         self.assertFalse(self.path("away").exists())

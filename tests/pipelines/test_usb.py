@@ -4,6 +4,7 @@
 
 import errno
 import os
+import re
 import signal
 import subprocess
 import unittest
@@ -134,7 +135,14 @@ class Auto(Pipelines):
     def test_without_anything_it_is_simulated(self):
         self.assertEqual(self.chosen(),
                          ("sim", "simulated, because nothing that gives a force can be used (device=auto)"))
-        self.assertRegex(self.renders, r"^It renders force in every direction, up to \d+\.\d N \(3 N by max-force\), and torque\.$")
+        renders = r"^It renders force in every direction, up to (\d+\.\d) N \(3 N by max-force\), and torque\.$"
+        self.assertRegex(self.renders, renders)
+        # What is said is accepted.
+        element = Gst.parse_launch(f"spidarmotion device=sim max-force={re.search(renders, self.renders)[1]}")
+        element.set_bus(Gst.Bus.new())
+        element.set_state(Gst.State.READY)
+        self.assertIsNone(element.get_bus().pop_filtered(Gst.MessageType.WARNING))
+        element.set_state(Gst.State.NULL)
 
     def test_what_has_a_direction_comes_before_what_rumbles(self):
         bus.evdev_plug(0, Evdev.KEYBOARD)
