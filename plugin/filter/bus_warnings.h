@@ -9,10 +9,10 @@
 
 #include <gst/gst.h>
 
+#include "plugin/device/device_warnings.h"
+#include "plugin/device/haptic_output.h"
 #include "plugin/frame/frame_report.h"
 #include "plugin/gobject/bus_messages.h"
-#include "plugin/output/device_warnings.h"
-#include "plugin/output/haptic_output.h"
 #include "plugin/properties/motion_properties.h"
 
 namespace spidar::filter {

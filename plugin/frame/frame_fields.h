@@ -8,7 +8,7 @@
 
 #include "core/fields.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 
 namespace spidar {
 

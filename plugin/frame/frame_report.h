@@ -15,7 +15,7 @@
 #include "core/orientation.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/touch_view.h"
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 #include "plugin/timing/frame_pacer.h"
 
 namespace spidar {

@@ -3,7 +3,7 @@
 /// Properties that every element with a device has.
 #pragma once
 
-#include "plugin/output/device_warnings.h"
+#include "plugin/device/device_warnings.h"
 #include "plugin/properties/property_table.h"
 
 namespace spidar {

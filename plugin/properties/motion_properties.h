@@ -12,7 +12,7 @@
 
 #include "core/analysis/force_renderer.h"
 #include "core/touch/depth_picture.h"
-#include "plugin/output/device_warnings.h"
+#include "plugin/device/device_warnings.h"
 
 namespace spidar {
 

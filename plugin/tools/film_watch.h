@@ -13,7 +13,7 @@
 #include <gst/gst.h>
 
 #include "plugin/films/video_choice.h"
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 #include "plugin/tools/record_options.h"
 
 namespace spidar {

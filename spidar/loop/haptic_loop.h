@@ -12,14 +12,14 @@
 #include <Eigen/Core>
 
 #include "spidar/grip/grip.h"
-#include "spidar/loop/force_limits.h"
+#include "spidar/limits/force_limits.h"
+#include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"
 #include "spidar/loop/loop_time.h"
 #include "spidar/loop/missing_answers.h"
 #include "spidar/loop/tick_record.h"
 #include "spidar/loop/wrench_callback.h"
-#include "spidar/loop/wrench_limits.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
 #include "spidar/touch/touch_rendering.h"

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "spidar/grip/string_grip.h"
+#include "spidar/limits/vibration_memory.h"
 #include "spidar/loop/loop_thread.h"
 #include "spidar/loop/tick_trace.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/session/vibration_memory.h"
 
 namespace spidar {
 

@@ -10,9 +10,9 @@
 #include <gst/gst.h>
 
 #include "core/fields.h"
+#include "plugin/device/device_warnings.h"
 #include "plugin/filter/motion_state.h"
 #include "plugin/frame/frame_fields.h"
-#include "plugin/output/device_warnings.h"
 #include "plugin/tracks/track_input.h"
 #include "spidar/loop/tick_trace.h"
 

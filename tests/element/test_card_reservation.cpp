@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/output/card_reservation.h"
+#include "plugin/device/card_reservation.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spidar::test::card_reservation_test {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/output/device_view.h"
+#include "plugin/device/device_view.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"

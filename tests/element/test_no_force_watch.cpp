@@ -11,7 +11,7 @@
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/camera/background.h"
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 
 namespace spidar::test::no_force_watch_test {
 namespace {

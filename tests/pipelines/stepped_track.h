@@ -12,7 +12,7 @@
 #include <gst/gst.h>
 
 #include "core/track/track_format.h"
-#include "plugin/output/haptic_output.h"
+#include "plugin/device/haptic_output.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/tick_watch.h"
 

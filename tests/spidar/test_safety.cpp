@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
-#include "spidar/loop/force_limits.h"
-#include "spidar/loop/wrench_limits.h"
+#include "spidar/limits/force_limits.h"
+#include "spidar/limits/wrench_limits.h"
 
 namespace spidar::test::safety_test {
 namespace {

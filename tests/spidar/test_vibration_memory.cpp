@@ -18,8 +18,8 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/limits/vibration_memory.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/session/vibration_memory.h"
 #include "spidar/user_folder.h"
 #include "tests/support/temporary_folder.h"
 

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "spidar/grip/tension_command.h"
+#include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/brake_table.h"
-#include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <gtest/gtest.h>
 
+#include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/loop/tick_trace.h"
-#include "spidar/loop/wrench_limits.h"
 
 namespace spidar::test {
 namespace {

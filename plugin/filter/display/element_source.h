@@ -8,9 +8,9 @@
 
 #include <gst/gst.h>
 
+#include "plugin/device/haptic_output.h"
 #include "plugin/filter/choice/motion_choice.h"
-#include "plugin/output/haptic_output.h"
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 #include "plugin/window/window.h"
 
 namespace spidar::filter {

@@ -10,13 +10,13 @@
 
 #include <gst/video/video.h>
 
+#include "plugin/device/haptic_output.h"
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/frame/point_owners.h"
-#include "plugin/output/haptic_output.h"
-#include "plugin/output/no_force.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/properties/motion_properties.h"
+#include "plugin/reasons/no_force.h"
 #include "plugin/window/window.h"
 
 namespace spidar::filter {

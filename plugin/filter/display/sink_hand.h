@@ -6,9 +6,9 @@
 #include <mutex>
 #include <optional>
 
+#include "plugin/device/haptic_output.h"
 #include "plugin/filter/choice/sink_mouse.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/output/haptic_output.h"
 #include "plugin/window/view/mouse_hand.h"
 
 namespace spidar::filter {

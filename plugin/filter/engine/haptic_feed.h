@@ -8,10 +8,10 @@
 
 #include <gst/gst.h>
 
+#include "plugin/device/haptic_output.h"
 #include "plugin/filter/touch/relief_stream.h"
-#include "plugin/output/haptic_output.h"
-#include "plugin/output/no_force.h"
 #include "plugin/properties/motion_properties.h"
+#include "plugin/reasons/no_force.h"
 #include "plugin/timing/loop_queue.h"
 
 namespace spidar::filter {

@@ -13,8 +13,8 @@
 
 #include "core/choice/feel_rules.h"
 #include "core/wrench_size.h"
+#include "plugin/device/device_view.h"
 #include "plugin/frame/frame_report.h"
-#include "plugin/output/device_view.h"
 
 namespace spidar::window {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/output/haptic_output.h"
+#include "plugin/device/haptic_output.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,8 @@
 #include <gst/gst.h>
 
 #include "core/grip/string_geometry.h"
+#include "plugin/device/card_reservation.h"
 #include "plugin/gobject/category.h"
-#include "plugin/output/card_reservation.h"
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/devices/sound/sound_cards.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/output/device_warnings.h"
+#include "plugin/device/device_warnings.h"
 
 #include <array>
 #include <cmath>

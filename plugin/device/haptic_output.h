@@ -12,7 +12,7 @@
 #include <gst/gst.h>
 
 #include "core/fields.h"
-#include "plugin/output/device_view.h"
+#include "plugin/device/device_view.h"
 #include "plugin/timing/playback_follower.h"
 #include "spidar/session/haptic_session.h"
 

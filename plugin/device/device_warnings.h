@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 
 #include "core/fields.h"
-#include "plugin/output/haptic_output.h"
+#include "plugin/device/haptic_output.h"
 
 namespace spidar {
 

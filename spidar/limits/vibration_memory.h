@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "spidar/loop/wrench_limits.h"
+#include "spidar/limits/wrench_limits.h"
 
 namespace spidar {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/output/card_reservation.h"
+#include "plugin/device/card_reservation.h"
 
 #include <algorithm>
 #include <cstring>

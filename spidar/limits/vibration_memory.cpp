@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/session/vibration_memory.h"
+#include "spidar/limits/vibration_memory.h"
 
 #include <algorithm>
 #include <array>

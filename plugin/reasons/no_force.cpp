@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/output/no_force.h"
+#include "plugin/reasons/no_force.h"
 
 #include <algorithm>
 #include <iterator>
