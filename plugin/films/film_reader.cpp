@@ -218,6 +218,7 @@ class FilmReader {
     const StreamContent content = content_of(pad);
     const std::lock_guard<std::mutex> lock(mutex_);
     film_.has_track = film_.has_track || content == StreamContent::kHapticTrack;
+    film_.has_subtitles = film_.has_subtitles || content == StreamContent::kSubtitles;
     return content;
   }
 

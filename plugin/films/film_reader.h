@@ -68,7 +68,8 @@ struct Film {
   int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not state it
   int64_t frame_ns = 0;     ///< longest time between two pictures at the beginning
   bool has_track = false;   ///< a haptic track is inside the film
-  bool is_still = false;    ///< it has a single picture, as a cover does
+  bool has_subtitles = false;
+  bool is_still = false;  ///< it has a single picture, as a cover does
 };
 
 /// Reads the beginning and the end of the first video stream of `path`: some megabytes, a short

@@ -19,7 +19,6 @@
 #include <sys/xattr.h>
 #include <thread>
 #include <unistd.h>
-#include <vector>
 
 #include <glib.h>
 
@@ -248,27 +247,6 @@ void PartFile::write(const std::string& content) {
     if (written < 0) throw failure(target_, errno);
     at += static_cast<size_t>(written);
     written_ += static_cast<uint64_t>(written);
-  }
-  g_checksum_update(sum_.get(), reinterpret_cast<const guchar*>(content.data()),
-                    static_cast<gssize>(content.size()));
-}
-
-void PartFile::check_written() const {
-  const std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum(g_checksum_new(G_CHECKSUM_SHA1),
-                                                             g_checksum_free);
-  std::vector<guchar> bytes(size_t{1} << 16U);
-  uint64_t read = 0;
-  for (ssize_t got = 1; got > 0; read += static_cast<uint64_t>(got)) {
-    got = uninterrupted(
-        [&] { return pread(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(read)); });
-    if (got < 0) throw failure(target_, errno);
-    g_checksum_update(sum.get(), bytes.data(), got);
-  }
-  const std::unique_ptr<GChecksum, void (*)(GChecksum*)> written(g_checksum_copy(sum_.get()),
-                                                                 g_checksum_free);
-  if (read != written_ ||
-      !g_str_equal(g_checksum_get_string(sum.get()), g_checksum_get_string(written.get()))) {
-    throw std::runtime_error(target_ + ": what is read back is not what was written");
   }
 }
 

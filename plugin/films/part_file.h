@@ -8,8 +8,6 @@
 #include <memory>
 #include <string>
 
-#include <glib.h>
-
 namespace spidar {
 
 /// Notes in an extended attribute of the open file, whose content is complete, that `maker` has
@@ -61,8 +59,6 @@ class PartFile {
 
   /// Appends to what has been written in this way. Throws std::runtime_error when that fails.
   void write(const std::string& content);
-  /// Reads what write() has written. Throws std::runtime_error when that is not the same.
-  void check_written() const;
 
   /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
   void check_in_place() const;
@@ -81,8 +77,6 @@ class PartFile {
   Replaces replaces_;
   int descriptor_ = -1;
   uint64_t written_ = 0;  ///< bytes
-  std::unique_ptr<GChecksum, void (*)(GChecksum*)> sum_{g_checksum_new(G_CHECKSUM_SHA1),
-                                                        g_checksum_free};
 };
 
 /// From now on, SIGINT, SIGTERM, SIGHUP and SIGXCPU remove all part files before they end the

@@ -97,6 +97,7 @@ class ExportedFilm {
       throw UsageError(film_ + ": is a track; give the film that it is for");
     }
     expect_own_track(condition_);
+    has_subtitles_ = read_film(film_).has_subtitles;
     place_arrow();
   }
 
@@ -202,7 +203,7 @@ class ExportedFilm {
   /// Returns what is missing, for the end of the line.
   std::string convert(const PartFile& part) {
     try {
-      const std::string missing = convert_for_browsers(film_, part, next_part());
+      const std::string missing = encode_film(film_, "", "flip", {}, part, next_part()).missing;
       return "; converted, because " + unplayed_ + (missing.empty() ? "" : "; " + missing);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(film_ + ": browsers do not play it, because " + unplayed_ +
@@ -218,8 +219,10 @@ class ExportedFilm {
 
   void tell(const std::string& to, const std::string& html, const std::string& more) {
     report_ = nullptr;  // its line is erased
-    std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s\n", film_.c_str(), to.c_str(),
-                html.size() / 1000, tolerance_N_, more.c_str(), in_the_middle_.c_str(),
+    const char* const lost =
+        has_subtitles_ ? "; without its subtitles, which browsers do not show" : "";
+    std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s%s\n", film_.c_str(), to.c_str(),
+                html.size() / 1000, tolerance_N_, more.c_str(), lost, in_the_middle_.c_str(),
                 said_.c_str());
   }
 
@@ -232,6 +235,7 @@ class ExportedFilm {
   FilmPage page_;
   double tolerance_N_ = 0;  ///< of the force that the page shows
   TrackCondition condition_;
+  bool has_subtitles_ = false;
   std::string unplayed_;       ///< why browsers do not play it
   std::string in_the_middle_;  ///< why it is not known where the felt object is
 };

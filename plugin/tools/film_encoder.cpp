@@ -32,9 +32,8 @@ constexpr Encoder kVideo[] = {
 constexpr const char* kNoVideo =
     "GStreamer has no encoder of H.264: install gstreamer1.0-plugins-ugly (x264enc)";
 
-}  // namespace
-
-std::string film_encoder(const PartFile& part) {
+/// Elements from raw pictures to the file, with a muxer "mux".
+std::string to_file(const PartFile& part) {
   const char* const encoder = first_installed(kVideo);
   if (!encoder) throw std::runtime_error(kNoVideo);
   // H.264 of 4:2:0 has even sizes.
@@ -45,6 +44,9 @@ std::string film_encoder(const PartFile& part) {
          " name=mux ! fdsink sync=false fd=" + std::to_string(part.descriptor());
 }
 
+/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
+/// are stored in another order; MP4 does not allow that. The later one follows when the other one
+/// ends. A probe for buffers, whose user data is the time of the last frame.
 GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   GstClockTime& last = *static_cast<GstClockTime*>(user);
   auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
@@ -58,40 +60,46 @@ GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   return GST_PAD_PROBE_OK;
 }
 
-QuietEnd::~QuietEnd() {
-  speak();
-}
+/// OpenH264 prints "Error: cmInitParaError" when GStreamer asks for its last pictures, although
+/// nothing is wrong: as long as that takes, the standard error is discarded. Outlives the pipeline.
+class QuietEnd {
+ public:
+  QuietEnd() = default;
+  ~QuietEnd() { speak(); }
+  QuietEnd(const QuietEnd&) = delete;
+  QuietEnd& operator=(const QuietEnd&) = delete;
 
-void QuietEnd::begin(GstElement* pipeline) {
-  const Ref<GstElement> encoder(gst_bin_get_by_name(GST_BIN(pipeline), "encoder"));
-  if (!encoder) return;
-  const Ref<GstPad> sink(gst_element_get_static_pad(encoder.get(), "sink"));
-  const Ref<GstPad> src(gst_element_get_static_pad(encoder.get(), "src"));
-  for (GstPad* const pad : {sink.get(), src.get()}) {
-    gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, pass, this, nullptr);
+  /// `pipeline` has the elements of to_file(), and has not started.
+  void begin(GstElement* pipeline) {
+    const Ref<GstElement> encoder(gst_bin_get_by_name(GST_BIN(pipeline), "encoder"));
+    if (!encoder) return;
+    for (const char* const name : {"sink", "src"}) {
+      const Ref<GstPad> pad(gst_element_get_static_pad(encoder.get(), name));
+      gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, pass, this, nullptr);
+    }
   }
-}
 
-GstPadProbeReturn QuietEnd::pass(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
-  auto& self = *static_cast<QuietEnd*>(user);
-  if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
-  self.speak();
-  if (GST_PAD_IS_SRC(pad)) return GST_PAD_PROBE_OK;
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) return GST_PAD_PROBE_OK;
-  self.errors_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-  if (self.errors_ >= 0) dup2(nowhere, STDERR_FILENO);
-  close(nowhere);
-  return GST_PAD_PROBE_OK;
-}
+ private:
+  static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    auto& self = *static_cast<QuietEnd*>(user);
+    if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
+    self.speak();
+    if (GST_PAD_IS_SRC(pad)) return GST_PAD_PROBE_OK;
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) return GST_PAD_PROBE_OK;
+    self.errors_ = fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    if (self.errors_ >= 0) dup2(nowhere, STDERR_FILENO);
+    close(nowhere);
+    return GST_PAD_PROBE_OK;
+  }
+  void speak() {
+    if (errors_ < 0) return;
+    dup2(errors_, STDERR_FILENO);
+    close(std::exchange(errors_, -1));
+  }
 
-void QuietEnd::speak() {
-  if (errors_ < 0) return;
-  dup2(errors_, STDERR_FILENO);
-  close(std::exchange(errors_, -1));
-}
-
-namespace {
+  int errors_ = -1;  ///< the standard error while it is discarded, else −1
+};
 
 /// Pictures and sound that all browsers decode, in MP4 and in WebM. Of H.264 with 8 bits and 4:2:0.
 constexpr const char* kPlayed =
@@ -167,8 +175,9 @@ std::string why_no_browser(const std::string& film) {
   return error;
 }
 
-std::string convert_for_browsers(const std::string& film, const PartFile& part,
-                                 const std::function<void(int percent)>& tell) {
+EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
+                        const RecordProperties& properties, const PartFile& part,
+                        const std::function<void(int percent)>& tell) {
   FilmProgress progress(tell);
   FilmWatch watch;
   KeptStreams others;
@@ -177,16 +186,18 @@ std::string convert_for_browsers(const std::string& film, const PartFile& part,
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
       "videoflip name=flip video-direction=auto ! " +
-          film_encoder(part),
+          elements + to_file(part),
       film, nullptr, kSlowShare);
+  GstElement* const pictures = file.find(last);
+  set_properties(pictures, properties);
   watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
   others.begin(file.pipeline());
   quiet.begin(file.pipeline());
-  progress.watch(file.find("flip"));
-  const Ref<GstPad> pictures(gst_element_get_static_pad(file.find("flip"), "src"));
-  gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
+  progress.watch(pictures);
+  const Ref<GstPad> frames(gst_element_get_static_pad(pictures, "src"));
+  gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);
   watch.play(file);
-  return others.missing();
+  return {watch.felt(), watch.remark(), others.missing()};
 }
 
 }  // namespace spidar::tools

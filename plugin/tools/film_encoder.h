@@ -6,40 +6,25 @@
 #include <functional>
 #include <string>
 
-#include <gst/gst.h>
-
 #include "plugin/films/part_file.h"
+#include "plugin/tools/record_options.h"
 
 namespace spidar::tools {
 
-/// Elements from raw pictures to the file of `part`, whose name will end in .mp4 or .mkv, with a
-/// muxer "mux". Throws std::runtime_error, which names the package to install, when GStreamer has
-/// no encoder of H.264.
-std::string film_encoder(const PartFile& part);
-
-/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
-/// are stored in another order; MP4 does not allow that. The later one follows when the other one
-/// ends. A probe for buffers, whose user data is the time of the last frame.
-GstPadProbeReturn order_frame(GstPad* pad, GstPadProbeInfo* info, gpointer last_frame);
-
-/// OpenH264 prints "Error: cmInitParaError" when GStreamer asks for its last pictures, although
-/// nothing is wrong: as long as that takes, the standard error is discarded. Outlives the pipeline.
-class QuietEnd {
- public:
-  QuietEnd() = default;
-  ~QuietEnd();
-  QuietEnd(const QuietEnd&) = delete;
-  QuietEnd& operator=(const QuietEnd&) = delete;
-
-  /// `pipeline` has been made with film_encoder(), and has not started.
-  void begin(GstElement* pipeline);
-
- private:
-  static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer self);
-  void speak();
-
-  int errors_ = -1;  ///< the standard error while it is discarded, else −1
+/// What is to be said of a film that was written anew.
+struct EncodedFilm {
+  std::string felt, remark;  ///< see FilmWatch, where the film passes a spidarmotion
+  std::string missing;       ///< see KeptStreams
 };
+
+/// Plays `film` through `elements`, from raw pictures that are upright to raw pictures, each with a
+/// "!" behind it, and writes these as H.264 into `part`, whose name will end in .mp4 or .mkv, with
+/// the sound and the subtitles of the film. The element `last`, or the turning "flip" before all,
+/// gets `properties`, and is where `tell`, which is that of FilmProgress, counts. Throws
+/// std::runtime_error; it names the package to install when GStreamer has no encoder of H.264.
+EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
+                        const RecordProperties& properties, const PartFile& part,
+                        const std::function<void(int percent)>& tell);
 
 /// Why some browser does not play the film, as the end of a sentence: "its picture is
 /// video/x-h265". Empty when all do: H.264 in MP4, VP8 or VP9 in WebM, with AAC, MP3, Opus or
@@ -51,10 +36,5 @@ constexpr const char* kNotEveryBrowser = ", which not every iPhone or Mac (Safar
 
 /// Whether `film` is in the container of WebM; any other that browsers play is in MP4.
 bool is_webm(const std::string& film);
-
-/// Writes `film` as H.264 and AAC into `part`, whose name ends in .mp4. Returns what is missing in
-/// it, as a sentence; usually empty. `tell` is that of FilmProgress. Throws std::runtime_error.
-std::string convert_for_browsers(const std::string& film, const PartFile& part,
-                                 const std::function<void(int percent)>& tell);
 
 }  // namespace spidar::tools

@@ -147,18 +147,14 @@ enum Argument {
   kParent,   // its process
   kAnswers,  // descriptors
   kPart,
-  kJob,   // has the words of the job, because Linux takes no argument of more than 128 KiB
+  kJob,   // has the job, because Linux takes no argument of more than 128 KiB
   kFilm,  // also for people who look at a list of processes
   kArguments
 };
 
-/// The words of a job, each of which ends with a zero. Properties are pairs of a name and a value.
-/// All of them are bytes, as names of files are.
-enum JobWord { kTrack, kIsSummarised, kSettings, kProperties };
-
-// Each answer is an object in MessagePack after its length, a uint32_t: {"percent": 40} as often as
-// it rises, and last what FilmResult has, or {"error": why}. Its texts are bytes, as names of files
-// are.
+// The job is what FilmJob has besides the film, in MessagePack. Each answer is an object in
+// MessagePack after its length, a uint32_t: {"percent": 40} as often as it rises, and last what
+// FilmResult has, or {"error": why}. Texts are bytes, as names of files are.
 
 // --- the process that has the list of films
 
@@ -206,25 +202,18 @@ class Answers {
   int ends_[2] = {-1, -1};
 };
 
-std::string words_of(const FilmJob& job) {
-  std::vector<std::string> words = {job.track, std::to_string(job.is_summarised),
-                                    job.properties.settings};
-  for (const auto& [name, value] : job.properties.values) {
-    words.push_back(name);
-    words.push_back(value);
-  }
-  std::string text;
-  for (const std::string& word : words) text += word + '\0';
-  return text;
-}
-
 /// A file in memory.
 class JobFile {
  public:
   explicit JobFile(const FilmJob& job) {
-    const std::string text = words_of(job);
+    std::string text;
+    Json::to_msgpack({{"track", job.track},
+                      {"is_summarised", job.is_summarised},
+                      {"settings", job.properties.settings},
+                      {"properties", job.properties.values}},
+                     text);
     if (descriptor_ < 0 ||
-        write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
+        pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
       const int error = errno;
       if (descriptor_ >= 0) close(descriptor_);
       Answers::fail(error);
@@ -362,23 +351,13 @@ int number_of_descriptor(const char* text) {
   return descriptor;
 }
 
-std::vector<std::string> words_in(int descriptor) {
-  std::vector<std::string> words;
-  std::string word;
-  char bytes[4096];
-  off_t at = 0;
-  for (ssize_t got = 0; (got = pread(descriptor, bytes, sizeof bytes, at)) > 0; at += got) {
-    for (ssize_t i = 0; i < got; ++i) {
-      if (bytes[i] != '\0') {
-        word += bytes[i];
-      } else {
-        words.push_back(std::exchange(word, {}));
-      }
-    }
-  }
-  close(descriptor);
-  words.resize(std::max<size_t>(words.size(), kProperties));
-  return words;
+FilmJob read_job(int descriptor, const char* film) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> file(fdopen(descriptor, "r"), std::fclose);
+  const Json job = Json::from_msgpack(file.get());
+  return {film,
+          job["track"],
+          {job["properties"].get<decltype(RecordProperties::values)>(), job["settings"]},
+          job["is_summarised"]};
 }
 
 }  // namespace
@@ -399,27 +378,21 @@ int run_film_process(int argc, char** argv) {
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
   const int answers = number_of_descriptor(argv[kAnswers]);
   const int descriptor = number_of_descriptor(argv[kPart]);
-  const std::vector<std::string> words = words_in(number_of_descriptor(argv[kJob]));
-  const std::string film = argv[kFilm], &track = words[kTrack];
-  RecordProperties properties;
-  properties.settings = words[kSettings];
-  for (size_t i = kProperties; i + 1 < words.size(); i += 2) {
-    properties.values.emplace_back(words[i], words[i + 1]);
-  }
   try {
+    const FilmJob job = read_job(number_of_descriptor(argv[kJob]), argv[kFilm]);
     gst_init(nullptr, nullptr);
-    std::string recorded = track;
+    std::string recorded = job.track;
     FilmResult result;
     if (descriptor == kNoPart) {
-      result = compare(film, track, properties.settings);
+      result = compare(job.film, job.track, job.properties.settings);
     } else {
-      const PartFile part(track, descriptor);
+      const PartFile part(job.track, descriptor);
       recorded = part.path();
-      result = record_film(film, part, properties, [answers](int percent) {
+      result = record_film(job.film, part, job.properties, [answers](int percent) {
         say(answers, {{"percent", percent}});
       });
     }
-    const bool is_summarised = words[kIsSummarised] == "1" && result.other.empty();
+    const bool is_summarised = job.is_summarised && result.other.empty();
     say(answers, {{"felt", result.felt},
                   {"remark", result.remark},
                   {"other", result.other},

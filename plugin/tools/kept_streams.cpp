@@ -61,46 +61,21 @@ std::string with_names(const std::string& marked) {
   return std::regex_replace(marked, kAlone, "&amp;");
 }
 
-/// Replaces the text in a buffer by what `change` makes of it.
-void replace_text(GstPadProbeInfo* info, std::string (*change)(const std::string&)) {
+/// A probe for subtitles, whose text it replaces by what `kChange` makes of it.
+template <std::string (*kChange)(const std::string&)>
+GstPadProbeReturn replace_text(GstPad*, GstPadProbeInfo* info, gpointer) {
   GstBuffer* const old = GST_PAD_PROBE_INFO_BUFFER(info);
   GstMapInfo map;
-  if (!gst_buffer_map(old, &map, GST_MAP_READ)) return;
+  if (!gst_buffer_map(old, &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
   std::string text(reinterpret_cast<const char*>(map.data), map.size);
   gst_buffer_unmap(old, &map);
-  text = change(text.c_str());  // some end with a zero
+  text = kChange(text.c_str());  // some end with a zero
   GstBuffer* const changed = gst_buffer_new_memdup(text.data(), text.size());
   constexpr auto kRest =
       static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_FLAGS | GST_BUFFER_COPY_TIMESTAMPS);
   gst_buffer_copy_into(changed, old, kRest, 0, static_cast<gsize>(-1));
   info->data = changed;
   gst_buffer_unref(old);
-}
-
-/// A probe that makes plain text of subtitles with Pango's marks.
-GstPadProbeReturn make_plain(GstPad*, GstPadProbeInfo* info, gpointer) {
-  if ((info->type & GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM) != 0) {
-    // Whether the muxer takes marks is asked before they are gone.
-    GstQuery* const query = GST_PAD_PROBE_INFO_QUERY(info);
-    if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) return GST_PAD_PROBE_OK;
-    gst_query_set_accept_caps_result(query, TRUE);
-    return GST_PAD_PROBE_HANDLED;
-  }
-  if ((info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0) {
-    GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
-    if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
-    const Ref<GstCaps> caps(gst_caps_from_string(kPlainText));
-    info->data = gst_event_new_caps(caps.get());
-    gst_event_unref(event);
-    return GST_PAD_PROBE_OK;
-  }
-  replace_text(info, without_marks);
-  return GST_PAD_PROBE_OK;
-}
-
-/// A probe for subtitles that Pango draws.
-GstPadProbeReturn make_drawable(GstPad*, GstPadProbeInfo* info, gpointer) {
-  replace_text(info, with_names);
   return GST_PAD_PROBE_OK;
 }
 
@@ -144,7 +119,8 @@ void KeptStreams::choose(GstElement* decoder, gpointer user) {
     if (content != StreamContent::kSubtitles || is_drawn) continue;
     if (overlay) {
       if (is_marked(Ref<GstCaps>(caps_of(pad)).get())) {
-        gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, make_drawable, nullptr, nullptr);
+        gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_BUFFER, replace_text<with_names>, nullptr,
+                          nullptr);
       }
       is_drawn =
           gst_element_link_pads(decoder, GST_OBJECT_NAME(pad), overlay.get(), "subtitle_sink");
@@ -169,13 +145,12 @@ void KeptStreams::keep_subtitles(GstPad* subtitles) {
     return miss("subtitles of it are left out, because they are pictures (" +
                 format_of(caps.get()) + "); --subtitles draws them into the film");
   }
-  constexpr auto kAll =
-      static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_QUERY_DOWNSTREAM |
-                                   GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM | GST_PAD_PROBE_TYPE_BUFFER);
   if (is_marked(caps.get())) {
-    gst_pad_add_probe(subtitles, kAll, make_plain, nullptr, nullptr);
+    gst_pad_add_probe(subtitles, GST_PAD_PROBE_TYPE_BUFFER, replace_text<without_marks>, nullptr,
+                      nullptr);
   }
-  lead_to_muxer(subtitles, "identity", "subtitle_%u");
+  const std::string plain = std::string("capssetter caps=\"") + kPlainText + '"';
+  lead_to_muxer(subtitles, plain.c_str(), "subtitle_%u");
 }
 
 void KeptStreams::lead_to_muxer(GstPad* stream, const char* elements, const char* into) {
@@ -191,7 +166,6 @@ void KeptStreams::lead_to_muxer(GstPad* stream, const char* elements, const char
   const Ref<GstPad> first(gst_element_get_static_pad(branch, "sink"));
   gst_pad_link(from.get(), to.get());
   gst_element_sync_state_with_parent(branch);
-  // Of text, a probe makes what the muxer takes.
   gst_pad_link_full(stream, first.get(), GST_PAD_LINK_CHECK_NOTHING);
 }
 

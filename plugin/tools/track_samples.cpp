@@ -284,7 +284,6 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
                     options.gain);
   }
   part.write(waiting);
-  part.check_written();
 }
 
 void StoredSound::watch(GstElement* element) {

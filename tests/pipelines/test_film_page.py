@@ -332,6 +332,14 @@ class FilmPage(track_case.TrackCase):
         self.assertIn("film.mkv does not play, because it is neither MP4 nor WebM. ", said)
         self.assertIn("“spidartrack export film.mkv FOLDER/”", said)
 
+    @track_case.needs("ffmpeg")
+    def test_a_page_without_the_subtitles_of_its_film_says_so(self):
+        self.make_mpeg4("film.mkv")
+        self.path("film.srt").write_text("1\n00:00:01,000 --> 00:00:02,000\nHere\n", encoding="utf-8")
+        self.run_in_folder("ffmpeg -nostdin -v error -i film.mkv -i film.srt -map 0 -map 1 -c copy told.mkv")
+        self.assertIn("; without its subtitles", self.spidartrack("export", "told.mkv", "told.html"))
+        self.assertNotIn("subtitles", self.spidartrack("export", "film.mkv", "film.html"))
+
     @unittest.skipUnless(HAS_ENCODER, "needs an encoder of H.264")
     @track_case.needs("chromium", "ffmpeg")
     def test_a_folder_and_a_page_have_all_in_them_and_fit_any_screen(self):
