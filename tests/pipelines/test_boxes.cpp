@@ -107,16 +107,5 @@ TEST(Boxes, ThatMakeNoSenseHarmNothing) {
   EXPECT_GE(fraction_felt(film, 1), Film::kMaxFrames);
 }
 
-/// Where no rule asks for them, boxes change nothing.
-TEST(Boxes, AreNothingWithoutARule) {
-  Film with("motion=object"), without("motion=object");
-  with.attach_ = [](GstBuffer* frame, int n) { add_region(frame, "face", 1, n); };
-  for (int n = 0; n < 20; ++n) {
-    with.next();
-    without.next();
-    EXPECT_EQ(with.velocity_px_s_, without.velocity_px_s_) << n;
-  }
-}
-
 }  // namespace
 }  // namespace spidar::test::boxes_test

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // What a person chooses in a player: by the mouse in its window, and by rules.
 #include <fstream>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -107,17 +106,6 @@ TEST(Mouse, AClickBesideAllObjectsIsToldAndKeepsNone) {
   EXPECT_EQ(film.felt(), 1);
 }
 
-TEST(Mouse, WhatIsKeptIsLostWhenItLeavesThePicture) {
-  Film film("motion=objects pointer=mouse", kMirroredWindow);
-  film.play_to(10);
-  click(film, film.disc_position(1));
-  // Below the picture after 85 frames. It is expected for half a second, and lost a second later.
-  film.play_to(85 + 13 + 26);
-  ASSERT_EQ(film.notes_.size(), 1u);
-  EXPECT_EQ(film.notes_[0].rfind("The object that was clicked is lost at 0:0", 0), 0u)
-      << film.notes_[0];
-}
-
 TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
   for (const char* pointer : {"0.5,0.5", "mouse"}) {
     Film film(std::string("pointer=") + pointer, kMirroredWindow);
@@ -136,26 +124,6 @@ TEST(Mouse, EventsGoOnUpstreamWithTheirPlaceInTheFrame) {
     EXPECT_NEAR(y, 0.5 * kHeight, 2);
     gst_event_unref(event);
   }
-}
-
-/// As the debug window does, without the mouse of a sink.
-TEST(Window, AClickKeepsTheObjectWhateverThePointerIs) {
-  Film film("motion=objects", kMirroredWindow);
-  film.play_to(10);
-  film.window().choose(film.disc_position(2));
-  int right = 0;
-  for (int n = 10; n < 30; ++n) {
-    film.next();
-    right += film.object_ != 0 && film.off_px_s(2) < 0.1 * 75;
-  }
-  EXPECT_GE(right, kMaxFrames * 20);
-  film.window().choose(std::nullopt);
-  film.next();
-  EXPECT_EQ(film.object_, 0u) << "all are felt again";
-  film.window().choose(Vector2d(0.02, 0.98));
-  film.play_to(50);
-  EXPECT_EQ(film.notes_,
-            std::vector<std::string>{"No object is at 0.02,0.98, where the mouse was clicked."});
 }
 
 std::string object_at(int disc, int n) {

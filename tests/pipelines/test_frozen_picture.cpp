@@ -52,16 +52,5 @@ TEST(FrozenPicture, AGapWhoseEndIsKnown) {
   EXPECT_EQ(tick.commanded.force_N, tick.wanted.force_N);
 }
 
-TEST(FrozenPicture, FourHundredFramesBetweenElementAndSink) {
-  constexpr int kFrames = 400;  // more than the loop's queue and its timeline hold
-  SteppedPipeline pipeline(
-      "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
-      " ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 " + kMotion +
-      "! queue max-size-buffers=0 max-size-time=0 max-size-bytes=0 ! fakesink name=sink sync=true");
-  pipeline.set_state(GST_STATE_PLAYING);
-  pipeline.await_analysed(kFrames);
-  play(pipeline, kFrames);
-}
-
 }  // namespace
 }  // namespace spidar::test::frozen_picture_test

@@ -147,23 +147,6 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
                     "gst-play-1.0", "--quiet", "--no-interactive", "--videosink=ximagesink qos=false", self.film])
         self.expect_mouse_chooses()
 
-    def test_it_is_a_finger_on_the_simulated_device(self):
-        ticks = self.path("ticks.csv")
-
-        def is_near(x_m, y_m):
-            rows = last_rows(ticks, 1)
-            return rows and math.dist((x_m, y_m), [float(rows[0][f"position_{axis}_m"]) for axis in "xy"]) < .004
-
-        self.start(self.launch("ximagesink", f"device=sim touch=luma pointer=mouse haptic-trace={ticks}"))
-        # Half of the way to the upper right corner of 59 mm × 64 mm; a film in motion pushes the grip about by some
-        # millimetres.
-        self.mouse((.75, .25), "mousedown", 1)
-        self.assertTrue(comes(lambda: is_near(.0148, .016)))
-        self.mouse((.25, .75))
-        self.assertTrue(comes(lambda: is_near(-.0148, -.016)))
-        self.mouse((.25, .75), "mouseup", 1)
-        self.assertTrue(comes(lambda: is_near(0, 0)), "it is let go")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -94,28 +94,6 @@ TEST(Touch, TheFilmIsAddedByItsFraction) {
   }
 }
 
-TEST(Touch, ACutIsNoKick) {
-  // With something in the pictures, and with nothing that could be compared. None of the second
-  // ones is lower where the grip is: there the hand would sink in at its own speed.
-  for (const char* before : {"black", "gradient"}) {
-    SCOPED_TRACE(before);
-    Touched touched(touched_film(std::string("pattern=") + before, "touch=luma touch-relief=10"));
-    touched.hold(0, 0.020, -0.006);
-    touched.play(50);
-    touched.fastest_m_s();
-    GstElement* source = gst_bin_get_by_name(GST_BIN(touched.pipeline.pipeline()), "source");
-    for (const char* after : {"smpte75", "white"}) {
-      SCOPED_TRACE(after);
-      gst_util_set_object_arg(G_OBJECT(source), "pattern", after);
-      touched.play(50);
-      EXPECT_LE(touched.fastest_m_s(), kGentle_m_s);
-    }
-    gst_object_unref(source);
-    // White is 5 mm before the middle: 300 N/m of the hand against 500.
-    EXPECT_GT(touched.last().commanded.force_N.z(), 1.5);
-  }
-}
-
 /// When the contact ends, the hand sinks in at its own speed. After that the surface rises.
 TEST(Touch, PauseSeekMuteAndOffEndIt) {
   Touched touched(touched_film("pattern=white", "touch=luma"));
@@ -160,37 +138,6 @@ TEST(Touch, PauseSeekMuteAndOffEndIt) {
   expect_contact("seek");
 }
 
-TEST(Touch, ASeekWhilePlayingIsNoKick) {
-  // How fast the hand itself sinks in when the contact ends.
-  Touched paused(touched_film("pattern=white", "touch=luma"));
-  Touched sought(touched_film("pattern=white", "touch=luma"));
-  for (Touched* touched : {&paused, &sought}) {
-    touched->hold(0, 0, -0.004);
-    touched->play(50);
-    touched->fastest_m_s();
-  }
-  paused.pipeline.set_state(GST_STATE_PAUSED);
-  paused.wait(500);
-  const double sinking_m_s = paused.fastest_m_s();
-  sought.pipeline.seek(2 * GST_SECOND);
-  sought.play(50);
-  EXPECT_LE(sought.fastest_m_s(), std::max(sinking_m_s, kGentle_m_s));
-  EXPECT_GT(sought.last().commanded.force_N.z(), 1);
-}
-
-TEST(Touch, TheLastPictureHoldsUntilTheEnd) {
-  Touched touched(touched_film("pattern=white num-buffers=50", "touch=luma"));
-  touched.hold(0, 0, -0.004);
-  touched.play(50);  // the sink waits for the end of the last one now
-  touched.wait(39);
-  EXPECT_GT(touched.last().commanded.force_N.z(), 1);
-  touched.pipeline.step();
-  touched.pipeline.await_message(GST_MESSAGE_EOS);
-  touched.wait(51);
-  EXPECT_FALSE(touched.last().contact.has_surface);
-  EXPECT_EQ(touched.last().commanded.stacked().norm(), 0);
-}
-
 /// A grey wedge, black at the top: where the grip is held is known by how high the surface is
 /// there.
 TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
@@ -214,21 +161,6 @@ TEST(Touch, PlacesAreThoseOfThePointerInPicturesOfAllShapes) {
       EXPECT_NEAR(z_m, height_m(touched.luma(position.x(), position.y())), step_m) << y_m;
     }
   }
-}
-
-TEST(Touch, AStillPictureIsTouched) {
-  Touched touched(
-      "videotestsrc num-buffers=1 pattern=white ! video/x-raw,format=GRAY8,width=320,height=240,"
-      "framerate=25/1 ! imagefreeze ! spidarmotion name=motion touch=luma ! fakesink name=sink "
-      "sync=true");
-  touched.hold(0, 0, -0.004);
-  touched.play(200);
-  EXPECT_GT(touched.last().commanded.force_N.z(), 1);
-  const TickRecord before = touched.last();
-  touched.play(50);
-  // The hand holds still: so does the force, but for what steps of the encoder make of it, through
-  // stiffness and damping.
-  EXPECT_NEAR(touched.last().contact.depth_m, before.contact.depth_m, 2 * 1.6e-5);
 }
 
 }  // namespace

@@ -165,21 +165,6 @@ TEST(TrackPlayback, TakesBuffersOfAnySize) {
   }
 }
 
-TEST(TrackPlayback, NothingIsFeltInPausedAndItGoesOnWhereItWas) {
-  SteppedTrack track;
-  track.push(curve(), 0);
-  track.end();
-  track.set_state(GST_STATE_PAUSED);
-  EXPECT_EQ(track.run(100).commanded.stacked().norm(), 0);
-  track.set_state(GST_STATE_PLAYING);
-  for (int ms = 1; ms < 200; ++ms) expect_wanted(track.tick(), ms, 1e-6);
-  track.set_state(GST_STATE_PAUSED);
-  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
-  EXPECT_EQ(track.run(1000).commanded.stacked().norm(), 0);
-  track.set_state(GST_STATE_PLAYING);
-  for (int ms = 200; ms < 900; ++ms) expect_wanted(track.tick(), ms, 1e-6);
-}
-
 TEST(TrackPlayback, ASeekIsExactToTheSampleAndForgetsWhatWasThere) {
   SteppedTrack track;
   track.push(curve(), 0);
@@ -235,17 +220,6 @@ TEST(TrackPlayback, ALoopWithoutAFlushIsFeltWithoutAGap) {
   EXPECT_EQ(track.run(51).commanded.stacked().norm(), 0);
 }
 
-TEST(TrackPlayback, FlushedSamplesAreNotFeltAndRestIsReachedWithoutNewOnes) {
-  SteppedTrack track;
-  track.push(curve(), 0);
-  track.end();
-  track.set_state(GST_STATE_PLAYING);
-  EXPECT_GT(track.run(150).commanded.stacked().norm(), 0.5);
-  track.flush();
-  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
-  EXPECT_EQ(track.run(500).commanded.stacked().norm(), 0);
-}
-
 TEST(TrackPlayback, ASeekWhilePausedIsFeltWhenItPlaysAgainAlsoBackwards) {
   SteppedTrack track;
   track.push(curve(), 0);
@@ -264,22 +238,6 @@ TEST(TrackPlayback, ASeekWhilePausedIsFeltWhenItPlaysAgainAlsoBackwards) {
   track.set_state(GST_STATE_PLAYING);
   track.tick();
   for (int ms = 2; ms < 900; ++ms) expect_wanted(track.tick(), 1000 - ms, 1e-6);
-}
-
-TEST(TrackPlayback, AGapIsRestAndWhatFollowsComesBackWithoutAKick) {
-  SteppedTrack track;
-  track.push(curve(0, 1, 200), 0);
-  track.push(curve(500, 1, 500), 500 * GST_MSECOND);
-  track.end();
-  track.set_state(GST_STATE_PLAYING);
-  EXPECT_GT(track.run(199).commanded.stacked().norm(), 0);
-  EXPECT_EQ(track.run(50).commanded.stacked().norm(), 0);
-  track.run(300);
-  for (int ms = 550; ms < 900; ++ms) {
-    const TickRecord tick = track.tick();
-    expect_wanted(tick, ms, 1e-6);
-    EXPECT_TRUE(ms <= 600 || tick.commanded.stacked() == tick.wanted.stacked()) << ms;
-  }
 }
 
 TEST(TrackPlayback, GainMuteAndOffset) {
