@@ -4,14 +4,11 @@
 // disc that circles, whose position in each picture is exact; when the sink hands each picture on;
 // and the force that the simulated device delivers. The disc's velocity turns with the time that
 // the pictures are handed on by, and the force is behind it by an angle.
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <fstream>
 #include <mutex>
 #include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -82,45 +79,17 @@ void see(GstElement*, GstBuffer* buffer, GstPad*, gpointer user) {
   screen->begin_s.push_back(now_s - 1e-9 * static_cast<double>(GST_BUFFER_PTS(buffer)));
 }
 
-struct Tick {
-  double monotonic_s = 0;
-  Eigen::Vector2d force_N;  ///< y up
-};
-
-std::vector<Tick> read_ticks(const std::string& path) {
-  std::ifstream trace(path);
-  std::vector<size_t> columns;
-  std::string line, field;
-  std::getline(trace, line);
-  for (const char* name : {"monotonic_ns", "delivered_force_x_N", "delivered_force_y_N"}) {
-    std::istringstream names(line);
-    size_t column = 0;
-    while (std::getline(names, field, ',') && field != name) ++column;
-    if (field != name) throw std::runtime_error(path + " has no column " + name);
-    columns.push_back(column);
-  }
-  std::vector<Tick> ticks;
-  while (std::getline(trace, line)) {
-    std::vector<std::string> fields;
-    std::istringstream rest(line);
-    while (std::getline(rest, field, ',')) fields.push_back(field);
-    if (fields.size() <= *std::max_element(columns.begin(), columns.end())) continue;
-    ticks.push_back({1e-9 * std::stod(fields[columns[0]]),
-                     {std::stod(fields[columns[1]]), std::stod(fields[columns[2]])}});
-  }
-  return ticks;
-}
-
 /// Of the force, against the velocity of the disc when its pictures are handed on.
-double lag_ms(const std::vector<Tick>& ticks, double begin_s) {
+double lag_ms(const std::string& trace, double begin_s) {
   Eigen::Vector2d sum_N(0, 0);  // along the velocity, and behind it
-  for (const Tick& tick : ticks) {
-    const double film_s = tick.monotonic_s - begin_s;
+  for (const std::vector<double>& tick :
+       read_trace(trace, {"monotonic_ns", "delivered_force_x_N", "delivered_force_y_N"})) {
+    const double film_s = 1e-9 * tick[0] - begin_s;
     if (film_s < kBegin_s || film_s >= kEnd_s) continue;
     const double angle = angle_at(film_s);
     Eigen::Matrix2d axes;
     axes << -std::sin(angle), -std::cos(angle), std::cos(angle), -std::sin(angle);
-    sum_N += axes * tick.force_N;
+    sum_N += axes * Eigen::Vector2d(tick[1], tick[2]);  // y up
   }
   if (sum_N.isZero(0)) throw std::runtime_error("no force was delivered");
   return 1e3 * std::atan2(sum_N.y(), sum_N.x()) / (2 * M_PI * kTurns_Hz);
@@ -139,7 +108,7 @@ double measure(const std::string& film, const std::string& before, const std::st
     pipeline.play();
     pipeline.wait_for_end();
   }
-  return lag_ms(read_ticks(trace), quantile(screen.begin_s, 0.5));
+  return lag_ms(trace, quantile(screen.begin_s, 0.5));
 }
 
 struct Path {

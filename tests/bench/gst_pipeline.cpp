@@ -2,6 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/bench/gst_pipeline.h"
 
+#include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace spidar::bench {
@@ -46,6 +49,30 @@ std::string Pipeline::problem() const {
   GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
   gst_object_unref(bus);
   return message ? text_of(message) : "no picture";
+}
+
+std::vector<std::vector<double>> read_trace(const std::string& path,
+                                            const std::vector<std::string>& columns) {
+  std::ifstream trace(path);
+  std::vector<std::vector<double>> rows;
+  std::vector<size_t> places;
+  for (std::string line, field; std::getline(trace, line);) {
+    std::vector<std::string> fields;
+    std::istringstream rest(line);
+    while (std::getline(rest, field, ',')) fields.push_back(field);
+    if (places.empty()) {
+      for (const std::string& name : columns) {
+        const auto found = std::find(fields.begin(), fields.end(), name);
+        if (found == fields.end()) throw std::runtime_error(path + " has no column " + name);
+        places.push_back(static_cast<size_t>(found - fields.begin()));
+      }
+      continue;
+    }
+    if (fields.size() <= *std::max_element(places.begin(), places.end())) continue;
+    rows.emplace_back();
+    for (const size_t place : places) rows.back().push_back(std::stod(fields[place]));
+  }
+  return rows;
 }
 
 GstBuffer* i420_buffer(const test::Picture& picture) {

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <gst/gst.h>
 
@@ -27,6 +28,7 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
 
   void play() { gst_element_set_state(pipeline_.get(), GST_STATE_PLAYING); }
+  GstElement* get() const { return pipeline_.get(); }
   /// Throws std::runtime_error with what went wrong.
   void wait_for_end();
   Element by_name(const char* name) const {
@@ -40,6 +42,10 @@ class Pipeline {
 };
 
 /// A grey picture as I420, which is what encoders take as it is.
+/// The values in these columns of a haptic trace, row by row. Throws std::runtime_error.
+std::vector<std::vector<double>> read_trace(const std::string& path,
+                                            const std::vector<std::string>& columns);
+
 GstBuffer* i420_buffer(const test::Picture& picture);
 
 /// The n-th of `rate_Hz` frames a second.

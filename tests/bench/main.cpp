@@ -23,10 +23,9 @@ const Benchmark kBenchmarks[] = {
     {"camera", camera, "[TEXT]          how the camera moves where little shows it"},
     {"cost", cost, "                the element in a pipeline"},
     {"filter", filter, "                error and delay of the 1 € filter"},
-    {"ladder", ladder, "                orders of the camera's motion, as chosen and fixed"},
     {"lag", lag, "                the force behind a motion on the screen"},
     {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
-    {"pose", pose, "                the pose solver beside others"},
+    {"pose", pose, "                time and error of the pose solver"},
 #ifdef HAS_REAL_FILM
     {"real_film", real_film, "METHOD FILM     the motion in a film; real_films.sh makes the table"},
 #endif
@@ -35,7 +34,7 @@ const Benchmark kBenchmarks[] = {
      "[GRIPS] [SEED] [CASE]  the worst that a search finds of grips that are let go of"},
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
-    {"stability", stability, "                errors of fits, poses and pictures that are hard"},
+    {"stability", stability, "                poses that are hard"},
     {"tension", tension,
      "[COUNT]         the tension solver, also on COUNT problems of each hard family"},
     {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
