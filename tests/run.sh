@@ -222,11 +222,9 @@ case ${1-} in
     end_check "site"
     end_check "names and braces"
     say "left out of all three: suite films, which takes an hour; suite hazards, which takes some minutes; suite kernel," \
-        "a virtual machine that needs QEMU and a kernel image; suite library, which installs Slurm and takes ten" \
-        "minutes; suite mpeg, which needs MPEG's reference software; suite packages, which builds the Debian packages in" \
-        "a clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite subproject," \
-        "which builds all again; suite validate, which needs gst-validate; suite valgrind. tests/README.md says when to" \
-        "run each."
+        "a virtual machine that needs QEMU and a kernel image; suite packages, which builds the Debian packages in a" \
+        "clean Debian; suite players, which needs desktop players; suite soak, which takes an hour; suite subproject," \
+        "which builds all again; suite valgrind. tests/README.md says when to run each."
     ;;
 *)
     echo "error: unknown option $1; usage: tests/run.sh [--all | --ci]" >&2
