@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <filesystem>
 #include <fstream>
+#include <poll.h>
 #include <stdexcept>
 #include <system_error>
 
@@ -62,11 +63,18 @@ class PortalView : public View {
   }
 
   std::string change() override {
+    if (is_without_pipewire()) return "PipeWire has ended: start spidar-feel --screen again";
     return cast_.has_ended() ? "the desktop has ended the sharing" : "";
   }
-  bool has_ended() const override { return cast_.has_ended(); }
+  bool has_ended() const override { return cast_.has_ended() || is_without_pipewire(); }
 
  private:
+  /// pipewiresrc waits on then.
+  bool is_without_pipewire() const {
+    pollfd remote{cast_.descriptor(), 0, 0};
+    return poll(&remote, 1, 0) > 0;
+  }
+
   ScreenCast cast_;
 };
 

@@ -89,7 +89,8 @@ class Portal:
         self.emit(SESSION, "Session", "Closed", GLib.Variant("(a{sv})", ({},)))
 
     def stop(self):
-        self.connection.close_sync()
+        if not self.connection.is_closed():
+            self.connection.close_sync()
         self.loop.quit()
 
 

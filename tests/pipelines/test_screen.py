@@ -187,11 +187,29 @@ class Wayland(LookedAtCase):
         self.addCleanup(portal.stop)
         return portal
 
-    def test_what_the_desktop_shares_is_felt_and_it_is_asked_again_only_on_demand(self):
+    def pipewire(self):
         if why := PipeWire.why_not():
             self.skipTest(why)
         pipewire = PipeWire(self.folder, self.bus)
         self.addCleanup(pipewire.stop)
+        return pipewire
+
+    def test_without_its_portal_the_sharing_goes_on_and_without_pipewire_it_ends(self):
+        pipewire = self.pipewire()
+        portal = self.portal(pipewire.socket, pipewire.share(BALL.replace("raw,", "raw,format=BGRx,")))
+        felt = self.look()
+        self.expect_felt()
+        portal.stop()
+        gone_s = bus_case.read_trace(self.trace)[-1][0]
+        self.assertTrue(comes(lambda: bus_case.largest_N([tick for tick in bus_case.read_trace(self.trace)
+                                                          if tick[0] > gone_s + .5]) > .1), self.said())
+        pipewire.stop()
+        self.expect_said("PipeWire has ended")
+        self.assertEqual(felt.wait(), 0)
+        self.assertEqual(bus_case.read_trace(self.trace)[-1][2], 0)
+
+    def test_what_the_desktop_shares_is_felt_and_it_is_asked_again_only_on_demand(self):
+        pipewire = self.pipewire()
         portal = self.portal(pipewire.socket)
         for what, token in (("", None), ("", "token 1"), ("=ask", None)):
             with self.subTest(what, token=token):

@@ -45,7 +45,18 @@ PAGES = {
     "full screen": """<style>body {{ margin: 0; background: #000 }}
         video {{ width: 100vw; height: 100vh; object-fit: contain }}</style><video src=film.webm muted></video>""",
 }
-PLAY = "<script>setTimeout(() => document.querySelector('video').play(), 4000)</script>"
+PLAY = "<script>const film = document.querySelector('video'); setTimeout(() => film.play(), 4000);"
+# What becomes of "page".
+EVENTS = {
+    "theatre": "setTimeout(() => film.style.cssText = 'z-index: 1; left: 80px; top: 20px; width: 1120px', 9000)",
+    "second film": """const other = document.body.appendChild(document.createElement('video'));
+        Object.assign(other, {src: 'film.webm', muted: true, loop: true, style: 'left: 760px; top: 540px; width: 320px'});
+        setTimeout(() => other.play(), 6000)""",
+    "scrolled": """for (let n = 0; n < 200; ++n)
+            document.body.appendChild(document.createElement('p')).textContent = 'Line ' + n + ' of what is read below a film.';
+        film.style.position = 'relative';
+        setTimeout(() => { film.pause(); setInterval(() => scrollBy(0, 4), 16) }, 7000)""",
+}
 
 
 def texture(random, height, width):
@@ -59,9 +70,17 @@ def texture(random, height, width):
     return (upper * (1 - at_y) + lower * at_y).astype(numpy.uint8)
 
 
+def cut_out(world, x, y):
+    """What a camera there sees, between the pixels, too."""
+    right, down = x % 1, y % 1
+    rows = world[int(y):int(y) + HEIGHT + 1, int(x):int(x) + WIDTH + 1].astype(float)
+    rows = rows[:, :-1] * (1 - right) + rows[:, 1:] * right
+    return (rows[:-1] * (1 - down) + rows[1:] * down).astype(numpy.uint8)
+
+
 def pictures(rate_hz):
     """By a camera in a hand: a patch that runs along an eight before a background at rest, and stands still every six seconds,
-    for two."""
+    for two. A camera that moved by whole pixels would pass for a page that scrolls."""
     random = numpy.random.default_rng(7)
     background, patch = texture(random, HEIGHT + 80, WIDTH + 80), texture(random, 100, 140)
     phase = 0
@@ -72,8 +91,7 @@ def pictures(rate_hz):
         y = int(HEIGHT / 2 - 10 + 90 * math.sin(2 * phase))
         world = background.copy()
         world[y:y + 100, x:x + 140] = patch
-        x, y = int(40 + 35 * math.sin(2.1 * now_s)), int(40 + 35 * math.sin(1.7 * now_s))
-        picture = world[y:y + HEIGHT, x:x + WIDTH].copy()
+        picture = cut_out(world, 40 + 35 * math.sin(2.1 * now_s), 40 + 35 * math.sin(1.7 * now_s))
         picture[:BAR_PX] = 16
         for at, bit in enumerate([1, 0] + [number >> bit & 1 for bit in range(BITS)]):
             picture[:BAR_PX, at * BIT_PX:(at + 1) * BIT_PX] = 235 if bit else 16
@@ -144,7 +162,8 @@ class Browser:
 
     def browse(self, page):
         self.path("page.html").write_text("<!doctype html><meta charset=utf-8><title>film</title>"
-                                          + PAGES[page].format(x=FILM_AT[0], y=FILM_AT[1]) + PLAY, encoding="utf-8")
+                                          + PAGES.get(page, PAGES["page"]).format(x=FILM_AT[0], y=FILM_AT[1]) + PLAY
+                                          + EVENTS.get(page, "") + "</script>", encoding="utf-8")
         env = dict(os.environ, HOME=str(self.folder), LIBGL_ALWAYS_SOFTWARE="1")
         env.pop("LD_PRELOAD", None)
         profile = self.path("profile")
@@ -218,7 +237,7 @@ class Browser:
     def test_the_film_in_a_page_is_felt_as_it_is(self):
         """A browser that gets too little of the processor leaves out pictures, which is another film then: it may try again."""
         self.make_film(25)
-        for page in ("page", "full screen"):
+        for page in ("page", "theatre", "second film", "full screen"):
             with self.subTest(page):
                 for _ in range(3):
                     self.look_at(page, LENGTH_S + 2)
@@ -227,6 +246,19 @@ class Browser:
                     if likeness.is_good():
                         break
                 self.assertTrue(likeness.is_good(), likeness)
+
+    def test_nothing_is_felt_while_a_page_scrolls_with_a_film_that_pauses(self):
+        self.make_film(25)
+        # Of the page, too, some lines pass for a number. The film plays for three seconds.
+        paused_s = max(now_s for now_s, at_s in self.look_at("scrolled", 7) if 1 < at_s < 4)
+        felt_N = {"before": 0, "then": 0}
+        for now_s, _, force_N, _ in bus_case.read_trace(self.trace):
+            if abs(now_s - paused_s) < 2.5:
+                when = "before" if now_s < paused_s else "then" if now_s > paused_s + .5 else "between"
+                felt_N[when] = max(felt_N.get(when, 0), force_N)
+        print(f"{self.COMMAND[0]}, scrolled: {felt_N}", flush=True)
+        self.assertGreater(felt_N["before"], FELT_N)
+        self.assertEqual(felt_N["then"], 0)
 
     def test_what_is_felt_is_what_is_seen(self):
         for rate_hz in (24, 25, 30, 60):
