@@ -143,6 +143,14 @@ class Windows(screen.ScreenCase, LookedAtCase):
         self.expect_said("a film is in it, 320 x 240 at 400, 100")
         self.expect_felt()
 
+    @unittest.skipUnless(pathlib.Path(FEEL).with_name("spidar-window").exists(), "it was built without the debug window")
+    def test_the_debug_window_is_left_out(self):
+        felt = self.look("", "debug-window=true")
+        self.expect_said("looks at the whole screen")
+        self.assertTrue(comes(screen.windows), self.said())
+        self.expect_said("All frames of the last second show the same picture.")
+        felt.kill()
+
     def test_own_windows_are_left_out(self):
         """A film in a window of this class is black. It says why nothing is felt."""
         film = self.show("Own", at=(100, 100))

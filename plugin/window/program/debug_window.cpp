@@ -90,8 +90,9 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
-  // By which spidar-feel --screen leaves it out (kOwnClass).
+  // By which spidar-feel --screen leaves it out (kOwnClass); GLFW sets both or none.
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "spidar-window");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "spidar-window");
   title_ = state_.name;
   window_ = glfwCreateWindow(kUsualWidth_px, kUsualHeight_px, title_.c_str(), nullptr, nullptr);
   if (!window_) {
