@@ -14,6 +14,7 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/pose_trust.h"
+#include "spidar/limits/safety_limits.h"
 
 namespace spidar {
 
@@ -37,20 +38,6 @@ struct GripAbilities {
   bool can_point() const noexcept { return position[0] || position[1]; }
   /// The largest force limit: what the grip gives, and at least the default, which all accept.
   double max_limit_N() const noexcept { return std::max(kDefaultForce_N, largest_force_N); }
-};
-
-/// Replaces negative values and NaN by zero.
-constexpr double non_negative(double x) noexcept {
-  return x > 0 ? x : 0;
-}
-
-/// A limit that is negative or not a number counts as zero.
-struct SafetyLimits {
-  double max_force_N = kDefaultForce_N;      ///< of the total force
-  double max_torque_Nm = kDefaultTorque_Nm;  ///< of the total torque
-  double max_slew_N_s = 300.0;               ///< full default force in 10 ms
-  double max_slew_Nm_s = 10.0;
-  double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
 };
 
 /// The properties of a grip that do not change while it is open.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "core/force/motion_rendering.h"
-#include "spidar/grip/released_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

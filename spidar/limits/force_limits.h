@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "core/wrench.h"
-#include "spidar/grip/grip.h"
+#include "spidar/limits/safety_limits.h"
 #include "spidar/realtime/seqlock.h"
 
 namespace spidar {

@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "spidar/limits/wrench_limits.h"
+#include "spidar/limits/vibration_budget.h"
 
 namespace spidar {
 

@@ -5,7 +5,7 @@
 /// test_released_grip.cpp; with another value, they show what is stated.
 #pragma once
 
-#include "spidar/grip/released_grip.h"
+#include "spidar/limits/released_grip.h"
 
 namespace spidar::brake {
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/wrench_size.h"
-#include "spidar/grip/released_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "spidar/loop/brake_table.h"
 
 namespace spidar {

@@ -13,6 +13,7 @@
 
 #include "spidar/grip/grip.h"
 #include "spidar/limits/force_limits.h"
+#include "spidar/limits/vibration_budget.h"
 #include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"

@@ -11,7 +11,7 @@
 #include "spidar/grip/grip.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/pose_trust.h"
-#include "spidar/limits/wrench_limits.h"
+#include "spidar/limits/vibration_budget.h"
 #include "spidar/touch/touch_rendering.h"
 
 namespace spidar {

@@ -10,7 +10,7 @@
 #include "core/force/wrench_timeline.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
-#include "spidar/limits/wrench_limits.h"
+#include "spidar/limits/vibration_budget.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_time.h"
 #include "spidar/loop/tick_trace.h"

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/released_grip.h"
 #include "spidar/grip/string_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/support/late_ticks.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/force/motion_rendering.h"
-#include "spidar/limits/wrench_limits.h"
+#include "spidar/limits/vibration_budget.h"
 #include "tests/element/no_force_reason_test.h"
 
 namespace spidar::test::felt_limits_test {

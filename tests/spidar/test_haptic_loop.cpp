@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/grip/released_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tampered_device.h"
 #include "tests/support/tick_watch.h"

@@ -13,8 +13,8 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/grip/released_grip.h"
 #include "spidar/grip/string_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/let_go_device.h"
 #include "tests/support/random_motion.h"

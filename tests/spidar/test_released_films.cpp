@@ -16,7 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/grip/released_grip.h"
+#include "spidar/limits/released_grip.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 

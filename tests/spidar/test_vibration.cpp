@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spidar/limits/wrench_limits.h"
+#include "spidar/limits/vibration_budget.h"
 #include "tests/support/released_grip.h"
 
 namespace spidar::test::vibration_test {

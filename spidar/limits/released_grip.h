@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "spidar/profiles/profile.h"
+#include "core/default_limits.h"
 
 namespace spidar {
 
