@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 #include "core/default_limits.h"
@@ -14,6 +15,7 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/pose_trust.h"
+#include "spidar/limits/released_grip.h"
 #include "spidar/limits/safety_limits.h"
 
 namespace spidar {
@@ -46,6 +48,13 @@ struct GripTraits {
   bool can_fly = true;      ///< the wrench can throw a grip that nobody holds
   double radius_m = 0;      ///< at which a torque counts as a force; 0: torques do not count
   double drive_lag_s = 0;   ///< from a command to the force that follows
+
+  /// The largest force limit, whoever sets it, with answers that take `late_s` longer than a tick:
+  /// a grip that is let go must not be thrown.
+  double most_force_N(double late_s = 0) const noexcept {
+    return can_fly ? released_force_N(drive_lag_s, late_s)
+                   : std::numeric_limits<double>::infinity();
+  }
 };
 
 /// The command that a grip receives in a tick.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/force/motion_rendering.h"
-#include "spidar/limits/released_grip.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {
@@ -110,10 +109,9 @@ void GripWatch::update(const DeviceReading& reading, const GripCommand& command)
 
 namespace {
 
-GripAbilities abilities_of(const Profile& profile) {
+GripAbilities abilities_of(const Profile& profile, const GripTraits& traits) {
   GripAbilities abilities;
-  abilities.largest_force_N =
-      std::min(largest_force_N(profile), released_force_N(profile.drive_lag_s));
+  abilities.largest_force_N = std::min(largest_force_N(profile), traits.most_force_N());
   return abilities;
 }
 
@@ -124,7 +122,7 @@ StringGrip::StringGrip(const Profile& profile, StringDevice& device)
       profile_(profile),
       device_(device),
       traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
-      abilities_(abilities_of(profile)),
+      abilities_(abilities_of(profile, traits_)),
       home_lengths_m_(string_lengths_m(profile.geometry, {})),
       watch_(profile),
       tension_command_(profile),

@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "core/wrench_size.h"
-#include "spidar/limits/released_grip.h"
 #include "spidar/loop/brake_table.h"
 
 namespace spidar {
@@ -27,16 +25,10 @@ bool has_wanted(const TickRecord& record) noexcept {
   return has_frame(record) || record.contact.has_surface || record.called_back;
 }
 
-/// Whoever sets a limit, a grip that is let go must not be thrown.
-double most_force_N(const GripTraits& traits, double late_s) noexcept {
-  return traits.can_fly ? released_force_N(traits.drive_lag_s, late_s)
-                        : std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
-    : grip_(std::move(grip)), limits_(limits, most_force_N(grip_->traits(), 0)) {}
+    : grip_(std::move(grip)), limits_(limits, grip_->traits().most_force_N()) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -137,7 +129,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   const Step step{1e-9 * static_cast<double>(std::min(unanswered_ns_, kMaxStep_ns)),
                   1e-9 * static_cast<double>(unanswered_ns_)};
   if (is_open) {
-    limits_.fall(safety_.last(), exerted_, step.falls_s, most_force_N(grip_->traits(), late_s_));
+    limits_.fall(safety_.last(), exerted_, step.falls_s, grip_->traits().most_force_N(late_s_));
   } else {
     limits_.restart();
   }
@@ -259,25 +251,32 @@ void HapticLoop::command(TickRecord& record, const Step& step, int64_t passed_ns
     power_ = std::min(power_ + step.rises_s / kEnergise_s, 1.0);
     state_ = power_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
-  const GripReading& grip = grip_->reading();
-  // A fraction of what exceeds a limit might be all that the limit allows.
-  const Wrench wanted =
-      record.wanted.is_finite() ? limit_total(record.wanted, limits_.as_set()) : record.wanted;
-  const Wrench allowed = vibration_.fraction() * wanted;
-  const bool fresh = is_fresh(record), can_fly = grip_->traits().can_fly;
-  const Wrench left = can_fly ? brake_.apply(allowed, grip.motion, passed_s) : allowed;
-  // Both fall by the same steps, but for rounding.
-  record.commanded =
-      limit_total(safety_.apply(left, fresh, fresh ? step.rises_s : step.falls_s, limits_.as_set()),
-                  limits_.in_effect());
+  limit(record, step, passed_s);
+  counters_.rejected_wrenches = safety_.rejected();
+}
+
+/// From the wanted wrench to the commanded one: the steps of docs/architecture.md, in their order.
+/// After command() has found the state of this tick.
+void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) noexcept {
+  const SafetyLimits &set = limits_.as_set(), &in_effect = limits_.in_effect();
+  // Total limits: a fraction of what exceeds one might be all that it allows.
+  const Wrench total = record.wanted.is_finite() ? limit_total(record.wanted, set) : record.wanted;
+  // Vibration.
+  const Wrench allowed = vibration_.fraction() * total;
+  // Brake.
+  const bool can_fly = grip_->traits().can_fly;
+  const Wrench left = can_fly ? brake_.apply(allowed, grip_->reading().motion, passed_s) : allowed;
   record.brakes = can_fly && brake_.acts();
+  // Rates. They and the limits in effect fall by the same steps, but for rounding and late ticks.
+  const bool fresh = is_fresh(record);
+  const double dt_s = fresh ? step.rises_s : step.falls_s;
+  record.commanded = limit_total(safety_.apply(left, fresh, dt_s, set), in_effect);
   if (record.brakes) {
-    // What is across the motion and what is against it may be too much together.
-    const Wrench cut = limit_total(brake_.cut(record.commanded, fresh), limits_.in_effect());
+    // At once. What is across the motion and what is against it may be too much together.
+    const Wrench cut = limit_total(brake_.cut(record.commanded, fresh), in_effect);
     safety_.continue_from(cut);
     record.commanded = limit_total(cut + brake_.damper(), braking_limits());
   }
-  counters_.rejected_wrenches = safety_.rejected();
 }
 
 void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {

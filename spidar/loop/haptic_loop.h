@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The 1 ms cycle: time → wrench → vibration budget → brake → limits → grip → pose.
+/// The 1 ms cycle: time → wrench → limits → grip → pose.
 #pragma once
 
 #include <array>
@@ -104,7 +104,7 @@ class HapticLoop {
   /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
   /// One caller at a time. From the next tick on, the force approaches a new total limit at the
-  /// slew limit. A grip that can fly gets at most released_force_N().
+  /// slew limit. A grip that can fly gets at most GripTraits::most_force_N().
   void set_limits(const SafetyLimits& limits) noexcept { limits_.set(limits); }
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
@@ -176,6 +176,7 @@ class HapticLoop {
   bool is_fresh(const TickRecord& record) const noexcept;
   SafetyLimits braking_limits() const noexcept;
   void command(TickRecord& record, const Step& step, int64_t passed_ns) noexcept;
+  void limit(TickRecord& record, const Step& step, double passed_s) noexcept;
   void exchange(TickRecord& record, const Step& step) noexcept;
   void count_energy(const TickRecord& record) noexcept;
   void follow(double passed_s) noexcept;
