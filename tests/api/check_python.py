@@ -67,11 +67,6 @@ class Devices(unittest.TestCase):
             self.assertEqual(device.capabilities().buttons, 0)
             self.assertIn("position_m=Vector3(x=", repr(device.pose()))
 
-    def test_waiting_ends_when_the_time_is_over(self):
-        with Device("sim") as device:
-            device.wait_until_running(-1)
-            self.assertTrue(device.wait_until_running(30))
-
     def test_a_callback_is_felt(self):
         seen = []
 
@@ -136,36 +131,6 @@ class Devices(unittest.TestCase):
                 self.assertIn("RuntimeError: not within a callback", device.callback_error())
             self.assertRaisesRegex(TypeError, "function of a GripState", device.set_callback, 3)
 
-    def test_threads_fraction_a_device(self):
-        with Device("sim") as device:
-            self.assertTrue(device.wait_until_running(30))
-            raised = []
-
-            def over_and_over(call):
-                try:
-                    for _ in range(100):
-                        call()
-                except Exception as error:
-                    raised.append(error)
-
-            calls = 2 * [
-                lambda: device.set_callback(lambda grip: (0, 0, 0)),
-                lambda: device.set_surface(b"\xff" * 256, 16, 16),
-                device.clear_surface,
-                lambda: device.push((0.5, 0, 0)),
-                lambda: device.set_limits(1, 0.05),
-                device.callback_error,
-            ]
-            threads = [threading.Thread(target=over_and_over, args=(call,)) for call in calls]
-            for thread in threads:
-                thread.start()
-            for thread in threads:
-                thread.join()
-            self.assertEqual(raised, [])
-            device.set_callback(None)
-            device.clear_surface()
-            self.assertTrue(comes_true(lambda: device.push((0.5, 0, 0)) and device.felt().force_N.x > 0.4))
-
     def test_what_is_wrong_is_named(self):
         with self.assertRaisesRegex(RuntimeError, 'unknown device "nosuch"; known are'):
             Device("nosuch")
@@ -208,14 +173,6 @@ class Devices(unittest.TestCase):
                 os._exit(2)
             self.assertEqual(os.waitpid(child, 0)[1], 0)
             self.assertTrue(device.push((1, 0, 0)), "the parent has it still")
-
-    def test_two_devices(self):
-        with Device("sim") as first, Device("sim:sh4") as second:
-            self.assertTrue(comes_true(lambda: first.push((1, 0, 0)) and first.felt().force_N.x > 0.9))
-            self.assertLess(abs(second.felt().force_N.x), 0.1)  # its board gives steps of tension
-        names = gst_spidar.list_devices()
-        self.assertIn("sim", names)
-        self.assertIn("spidar-g", gst_spidar.list_profiles())
 
     def test_it_closes_when_nothing_refers_to_it(self):
         def threads():

@@ -97,42 +97,6 @@ TEST(MotionToWrench, SettingsAreThoseOfTheElement) {
               2 * 3 / M_PI * 0.02 * 2 * 0.03 / 0.04);
 }
 
-TEST(MotionToWrench, ASettingOutOfRangeChangesNothing) {
-  MotionToWrench motion;
-  motion.configure(mean());
-  const double before_N = after_ten(motion).wrench.force_N.x;
-  motion.reset();
-  for (double MotionSettings::*number :
-       {&MotionSettings::max_force_N, &MotionSettings::alpha_s_px, &MotionSettings::pointer_x,
-        &MotionSettings::pointer_y, &MotionSettings::depth_gain, &MotionSettings::roll_gain}) {
-    MotionSettings settings = mean();
-    settings.max_force_N = 1;
-    settings.*number = std::nan("");
-    EXPECT_THROW(motion.configure(settings), std::invalid_argument);
-  }
-  MotionSettings settings = mean();
-  settings.controller = static_cast<Controller>(9);
-  EXPECT_THROW(motion.configure(settings), std::invalid_argument);
-  settings = mean();
-  settings.motion = static_cast<FeltMotion>(9);
-  EXPECT_THROW(motion.configure(settings), std::invalid_argument);
-  EXPECT_EQ(after_ten(motion).wrench.force_N.x, before_N);
-  settings = {Controller::kAdaptive, FeltMotion::kObjects, 2, 0.02, 0.25, 0.75, 0, 2};
-  EXPECT_NO_THROW(motion.configure(settings));
-}
-
-TEST(MotionToWrench, AfterARestartThereIsNothingToCompareWith) {
-  MotionToWrench motion;
-  motion.configure(mean());
-  after_ten(motion);
-  motion.reset();
-  MovingPicture picture;
-  const MotionResult found = motion.analyze(picture.at(40), 400ms);
-  EXPECT_FALSE(found.has_picture_before);
-  EXPECT_EQ(found.velocity_x_px_s, 0);
-  EXPECT_EQ(found.wrench.force_N.x, 0);
-}
-
 TEST(MotionToWrench, WhatIsWrongIsNamed) {
   MotionToWrench motion;
   MovingPicture picture;

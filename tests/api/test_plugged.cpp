@@ -3,7 +3,6 @@
 // libgst-spidar with devices that are plugged in and out: on an emulated bus, behind the calls of
 // real ones.
 #include <atomic>
-#include <cerrno>
 #include <chrono>
 #include <cstdint>
 #include <cstring>
@@ -19,7 +18,6 @@
 
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/shared_bus.h"
-#include "tests/spidar/guardian_victim.h"
 
 namespace gst_spidar {
 namespace {
@@ -27,7 +25,6 @@ namespace {
 using namespace std::chrono_literals;
 using spidar::test::EvdevKind;
 using spidar::test::EvdevPort;
-using spidar::test::UsbPort;
 
 /// The guardian is another process.
 const spidar::test::SharedBus shared_bus;
@@ -97,60 +94,6 @@ TEST_F(Plugged, ADeviceThatIsUnpluggedIsLostUntilItIsBack) {
   }));
 }
 
-/// The program pushes all the time, as one that shows a film does.
-TEST_F(Plugged, ABoardThatIsUnpluggedWhileItIsPushedComesBack) {
-  for (const char* kind : {"sh4", "simple"}) {
-    for (const int error : {0, EPROTO}) {
-      SCOPED_TRACE(error);
-      UsbPort* port = &spidar::test::plug(0, kind);
-      {
-        Device device("usb", spidar::test::kUsbProfile);
-        const auto pushed = [&] {
-          device.push(half_a_newton());
-          return device.felt().force_N.x > 0.4;
-        };
-        ASSERT_TRUE(happens(pushed));
-        for (int times = 0; times < 3; ++times) {
-          spidar::test::unplug(0, error);
-          ASSERT_TRUE(happens([&] { return !pushed() && device.state() == DeviceState::kLost; }));
-          EXPECT_FALSE(device.last_fault().empty());
-          port = &spidar::test::plug(0, kind);
-          EXPECT_TRUE(happens(pushed)) << device.last_fault();
-          EXPECT_FALSE(port->at_rest());
-        }
-      }
-      EXPECT_TRUE(port->at_rest());
-      EXPECT_EQ(spidar::test::guardian_process(), 0);
-      spidar::test::clear_bus();
-    }
-  }
-}
-
-/// Its counters begin anew while the grip is beside the centre: nobody knows where it is.
-TEST_F(Plugged, ABoardThatWasWithoutPowerNeedsToBeOpenedAnew) {
-  UsbPort* port = &spidar::test::plug(0, "sh4");
-  {
-    Device device("usb", spidar::test::kUsbProfile);
-    ASSERT_TRUE(device.wait_until_running(30s));
-    // 60 mm, in steps that a hand makes.
-    for (int step = 0; step < 60; ++step) {
-      for (auto& count : port->count) count += 50;
-      std::this_thread::sleep_for(1ms);
-    }
-    spidar::test::unplug(0);
-    ASSERT_TRUE(happens([&] { return device.state() == DeviceState::kLost; }));
-    for (auto& count : port->count) count = 0;
-    spidar::test::plug(0, "sh4");
-    EXPECT_TRUE(happens([&] { return device.last_fault().rfind("counter jump", 0) == 0; }))
-        << device.last_fault();
-    EXPECT_EQ(device.state(), DeviceState::kLost);
-    EXPECT_FALSE(device.push(half_a_newton()));
-    EXPECT_TRUE(port->at_rest());
-  }
-  Device anew("usb", spidar::test::kUsbProfile);
-  EXPECT_TRUE(anew.wait_until_running(30s));
-}
-
 TEST_F(Plugged, ALostDeviceIsAnErrorInC) {
   GstSpidarError error;
   GstSpidarDevice* const device = gst_spidar_device_open("ff", nullptr, &error);
@@ -173,17 +116,6 @@ TEST_F(Plugged, ClosingWhilePushingLeavesNoForce) {
     EXPECT_TRUE(happens([&] { return spidar::test::evdev_levels(0).right > 0; }));
   }
   EXPECT_TRUE(spidar::test::evdev_levels(0).at_rest());
-}
-
-TEST_F(Plugged, ADeviceIsOpenedOnce) {
-  const Device device("ff");
-  try {
-    Device again("ff");
-    FAIL() << "opened twice";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("another program uses it"), std::string::npos)
-        << error.what();
-  }
 }
 
 }  // namespace

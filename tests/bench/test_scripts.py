@@ -7,7 +7,6 @@
 """
 
 import re
-import sys
 import tempfile
 import unittest
 from pathlib import Path

@@ -2,10 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // What a window sees of the device.
 #include <algorithm>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "plugin/device/device_view.h"
+#include "plugin/filter/display/motion_display.h"
+#include "plugin/filter/spidar_motion.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/video_frames.h"
@@ -62,6 +65,19 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   tick(10);
   output.look_at_device(view);
   EXPECT_EQ(view.ticks.size(), 10u);
+}
+
+TEST(DeviceView, OnlyASimulatedGripHasAHandToLead) {
+  for (const char* properties : {"device=sim:sh4", "device=none"}) {
+    ElementHarness h(properties);
+    const std::shared_ptr<window::Source> source =
+        gst_spidar_motion_state(GST_SPIDAR_MOTION(h.element())).display.source();
+    window::ElementState state;
+    source->read(state);
+    EXPECT_FALSE(state.device && state.device->has_hand) << properties;
+    EXPECT_FALSE(h.state().feed.output.lead_hand(Eigen::Vector3d(0.01, 0, 0))) << properties;
+    source->lead_hand(Eigen::Vector3d(0.01, 0, 0));
+  }
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 """The page of spidartrack export in the browsers that Debian can drive: Chromium, and WebKit, which Safari is made of.
 With SPIDAR_SCREENSHOTS, pictures of it are left in that folder."""
 import glob
-import json
 import os
 import pathlib
 import shutil

@@ -5,12 +5,10 @@ and every tick is checked."""
 
 import gc
 import importlib
-import math
 import os
 import random
 import shutil
 import signal
-import subprocess
 import sys
 import threading
 import time
@@ -256,17 +254,6 @@ class Gl(gst_case.GstCase):
         self.assertTrue(onwards.eos, onwards.error)
         with self.assertRaisesRegex(gst_case.gi.repository.GLib.GError, "could not link .*spidarmotion"):
             Gst.parse_launch(self.FILM + self.UPLOADED + motion + "fakesink")
-        # Of a large frame that stays where it is, a small one is downloaded and feels the same. The ball moves by 13 pixels
-        # of the small one to the right (half the width times 2 pi / 200 a frame), so .1 pixel more or less is below 1 %.
-        large = self.FILM.replace("width=320,height=240", "width=1708,height=960")
-        plain = self.play(large + motion + "fakesink")
-        small = self.play(large + self.UPLOADED + "tee name=shown ! queue ! fakesink shown. ! queue ! glcolorconvert ! "
-                          "glcolorscale ! video/x-raw(memory:GLMemory),format=RGBA,width=854,height=480 ! gldownload ! "
-                          + motion + "fakesink")
-        self.assertGreater(plain.largest_N, 0)
-        self.assertEqual(len(small.forces), len(plain.forces))
-        for felt, right in zip(small.forces, plain.forces):
-            self.assertLessEqual(math.dist(felt, right), .02 * plain.largest_N)
 
 
 class Process(gst_case.GstCase):

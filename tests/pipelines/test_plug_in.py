@@ -15,9 +15,6 @@ import track_case
 
 PLUG_IN, SPIDARCTL = os.environ["PLUG_IN"], os.environ["SPIDARCTL"]
 PROFILE = "spidar-g6x3-v2-r"
-# To which `choose` asks for the grip.
-SIDES = {"to the right": (1, 0, 0), "to the left": (-1, 0, 0), "up": (0, 1, 0), "down": (0, -1, 0),
-         "towards you": (0, 0, 1), "away from you": (0, 0, -1)}
 FILM = ("gst-launch-1.0", "videotestsrc", "pattern=ball", "!", "video/x-raw,width=160,height=120", "!", "spidarmotion",
         "device=usb", f"profile={PROFILE}", "!", "fakesink", "sync=true")
 
@@ -74,16 +71,6 @@ class Rehearsal(PlugIn):
         self.act("break", "3")
         self.wait_for("String 3 of the haptic device is slack or broken")
 
-    def test_a_board_is_pulled_out_and_put_back(self):
-        self.begin_film()
-        # Beside the centre: counters near zero look like those of a board that was without power.
-        self.act("move", "30", "0", "0")
-        self.act("unplug")
-        self.wait_for("does not answer: unplugged. The video continues without it.")
-        self.act("replug")
-        told = self.said().count("digits:")
-        self.wait_for(r"digits:(?! +0 +0 +0 +0 +0 +0 +0 +0\n)", told + 1)
-
     def test_a_board_that_was_without_power_is_not_believed(self):
         """Its counters begin where the grip is then, as if that were the centre."""
         self.begin_film()
@@ -91,13 +78,6 @@ class Rehearsal(PlugIn):
         self.act("restart")
         self.wait_for("usb: was without power, its counters do not say any more where the grip is: hold the grip at the centre, "
                       "and stop and start")
-
-    def test_where_motors_have_no_supply_nothing_answers(self):
-        """All is as before when the stop is released; on a busy machine the grip may move too late for one test."""
-        test = f"{SPIDARCTL} selftest usb --profile {PROFILE} --yes"
-        self.begin("sh", "-c", f"plug_in stop; {test}; plug_in release; until {test}; do :; done; echo released; read wait")
-        self.wait_for("No encoder moves, whichever motor pulls.")
-        self.wait_for("wiring: as in the profile\\n(.*\\n)*released")
 
     def test_a_selftest_says_that_a_string_may_be_broken(self):
         self.begin("sh", "-c", f"plug_in break 3; {SPIDARCTL} selftest usb --profile {PROFILE} --yes; read wait")
@@ -108,18 +88,6 @@ class Rehearsal(PlugIn):
         self.wait_for("usb:1-1 (.*\\n)*.*usb:1-2 ")
         self.wait_for("Emulated Pad")
         self.wait_for("70-spidar.rules")
-
-    def test_the_hand_confirms_a_profile(self):
-        choose = self.begin(SPIDARCTL, "choose", "usb", "--profile", PROFILE)
-        self.wait_for("at the centre")
-        for n in range(7):
-            if n > 0:
-                asked = self.wait_for(rf"{n} of 6: from the centre, pull the grip ([0-9.]+) mm (.*?), hold")
-                self.act("move", *(str(round(float(asked[1])) * along) for along in SIDES[asked[2]]))
-            choose.stdin.write("\n")
-            choose.stdin.flush()
-        self.assertEqual(choose.wait(), 0, self.said())
-        self.assertIn(f"{PROFILE} is remembered for the serial number EMULATED", self.said())
 
     def test_what_cannot_be_done_is_refused(self):
         self.variables["SPIDAR_EMULATED_BUS"] = str(self.path("none"))

@@ -4,7 +4,6 @@
 
 import csv
 import errno
-import fcntl
 import math
 import os
 import time
@@ -276,64 +275,6 @@ class Traces(ElementCase):
                 self.assertEqual(self.stats("device"), ["sim"], "the force goes on")
         self.assertFalse(self.path("trace.txt").exists())
         self.assertEqual(kept.read_text(), "as it was")
-
-    def test_a_trace_replaces_a_trace_and_nothing_else(self):
-        for properties, name in (("device=none trace=", "t.csv"), ("device=none trace=", "t.jsonl"),
-                                 ("device=sim haptic-trace=", "film.mkv")):
-            with self.subTest(properties + name):
-                file = self.path(name)
-                file.write_text("the only copy of a film")
-                self.open(f"{properties}{file}", 64, 64)
-                self.push(3)
-                warnings = self.warnings()
-                self.element.get_parent().set_state(Gst.State.NULL)
-                self.assertEqual(len(warnings), 1)
-                self.assertIn("a file with something else in it, which is not replaced", warnings[0])
-                self.assertEqual(file.read_text(), "the only copy of a film")
-                file.unlink()
-                for _ in range(2):
-                    self.open(f"{properties}{file}", 64, 64)
-                    self.push(3)
-                    self.element.get_parent().set_state(Gst.State.NULL)
-                    self.assertEqual(self.warnings(), [])
-                self.assertEqual(file.read_text().count("running_ns") + file.read_text().count("running_time_ns"),
-                                 3 if name == "t.jsonl" else 1)
-
-    def test_a_pipe_whose_reader_has_left_is_a_warning_and_the_video_goes_on(self):
-        pipe = self.path("trace.csv")
-        os.mkfifo(pipe, 0o600)
-        for properties in ("device=none trace=", "device=sim haptic-trace="):
-            reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
-            self.open(f"{properties}{pipe}", 64, 64)
-            os.close(reader)
-            warnings = []
-            while not warnings:
-                self.push(1)
-                warnings += self.warnings()
-            self.assertEqual(len(warnings), 1)
-            self.assertIn("can no longer be written", warnings[0])
-
-
-    def test_a_pipe_whose_reader_stands_still_holds_up_neither_the_video_nor_its_end(self):
-        """More rows than a pipe holds. Their number is told when the stream ends."""
-        for properties, name in (("device=none trace=", "p.csv"), ("device=none trace=", "p.jsonl"),
-                                 ("device=sim haptic-trace=", "p.csv")):
-            with self.subTest(properties + name):
-                self.path(name).unlink(missing_ok=True)
-                os.mkfifo(self.path(name), 0o600)
-                reader = os.open(self.path(name), os.O_RDONLY | os.O_NONBLOCK)
-                fcntl.fcntl(reader, fcntl.F_SETPIPE_SZ, 4096)  # the smallest pipe
-                self.open(f"{properties}{self.path(name)}", 64, 64)
-                # A row a frame of at least 40 bytes, or one of at least 100 bytes a millisecond.
-                self.push(200)
-                while "device=sim" in properties and self.stats("ticks")[0] < 200:
-                    self.push(1)
-                self.element.get_parent().set_state(Gst.State.READY)
-                warnings = self.warnings()
-                self.assertEqual(len(warnings), 1)
-                self.assertRegex(warnings[0], "lacks [0-9]+ rows")
-                self.element.get_parent().set_state(Gst.State.NULL)
-                os.close(reader)
 
 
 class Stats(ElementCase):

@@ -293,7 +293,6 @@ class Batch(track_case.TrackCase):
         self.assertEqual(batch.wait(), 0)
         self.assertIn("z.avi.haptic.flac is there", self.path("log").read_text())
 
-    @track_case.needs("taskset")
     def test_there_are_as_many_jobs_as_descriptors_allow(self):
         """A process of one film has enough of them. All films at once would need 50: the soft limit
         is raised, and under the hard one some wait."""
@@ -306,24 +305,6 @@ class Batch(track_case.TrackCase):
                 said = self.run_in_folder(f"{limit}; {PROGRAM} record -j20 --force in")
                 self.assertIn("20 recorded", said)
                 self.assertNotIn("CRITICAL", said)
-
-    def test_there_are_as_many_jobs_as_processors_that_may_be_used(self):
-        self.make_film("x.avi", 4000)
-        for name in ("y.avi", "z.avi"):
-            os.link(self.path("x.avi"), self.path(name))
-        allowed = sorted(os.sched_getaffinity(0))
-        for processors in (allowed[:1], allowed[:2]):
-            batch = subprocess.Popen(["taskset", "-c", ",".join(map(str, processors)), PROGRAM, "record",
-                                      "--force", "x.avi", "y.avi", "z.avi"], cwd=self.folder, stdout=subprocess.DEVNULL)
-            deadline = time.monotonic() + 2  # in which others begin: a late one makes no test fail
-            most = 0
-            while batch.poll() is None and (most == 0 or time.monotonic() < deadline):
-                # When a film is done, a listing may have its part file and that of the next one.
-                most = max(most, min(len(list(self.folder.glob(".part-*"))) for _ in range(2)))
-                time.sleep(.02)
-            batch.terminate()
-            batch.wait()
-            self.assertTrue(1 <= most <= len(processors), f"{most} films at a time")
 
     def test_properties_that_do_not_belong_to_a_track_are_refused(self):
         self.make_film("x.avi")
@@ -386,21 +367,6 @@ class Batch(track_case.TrackCase):
             read = self.samples(b"\xff \"quoted\".wav".decode(errors="surrogateescape"))
             self.assertEqual(len(read), 1000, name)
         self.assertFalse(self.path("ran").exists())
-
-    @track_case.needs("ffmpeg")
-    def test_a_long_recording_tells_how_long_it_takes(self):
-        """It is stopped for ten seconds, after which a line is due."""
-        self.make_film("x.avi", 250)
-        self.run_in_folder("ffmpeg -nostdin -v error -stream_loop 19 -i x.avi -c copy long.avi")
-        batch = self.start("long.avi")
-        while not any(part.stat().st_size for part in self.folder.glob(".part-*")):
-            time.sleep(.01)
-        batch.send_signal(signal.SIGSTOP)
-        time.sleep(10.1)
-        batch.send_signal(signal.SIGCONT)
-        self.assertEqual(batch.wait(), 0)
-        self.assertRegex(self.path("log").read_text(),
-                         r"^0 of 1 done; long.avi \d+ %; about (\d+ min )?\d+ s left\n")
 
     def test_a_batch_ends_with_a_summary(self):
         self.make_film("x.avi", 50)

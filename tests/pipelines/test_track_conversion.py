@@ -47,22 +47,6 @@ class Conversion(track_case.TrackCase):
             self.assertLessEqual(difference([[float(row[name]) / scale for name, scale in zip(columns, FULL_SCALE)]],
                                             [sample]), 1e-6)
 
-    def test_funscripts(self):
-        wide = (.1, -.2, .3, -.4, .5, -.6)
-        self.make_track(sample=lambda _: wide, count=100)
-        for axis, share in zip(CHANNELS, wide):
-            self.spidartrack("convert", "a.wav", "a.funscript", "--axis", axis, "--gain", "1")
-            script = json.loads(self.path("a.funscript").read_text())
-            self.assertEqual(script["actions"], [{"at": at, "pos": round(50 + 50 * share)} for at in (0, 99)])
-        self.path("a.funscript").write_text('{"actions":[{"at":0,"pos":50},{"at":100,"pos":100}]}')
-        for options, said, most in (((), "gain 3.3 taken back: 100 % is 3 N", .3),
-                                    (("--gain", "1"), "gain 1 taken back: 100 % is 10 N", 1)):
-            self.assertEqual(self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx", *options),
-                             f"a.funscript: fx, {said}\n")
-            read = self.samples("b.wav")
-            self.assertEqual(len(read), 101)
-            self.assertLessEqual(difference([read[50], read[100]], [(most / 2,) + (0,) * 5, (most,) + (0,) * 5]), 1e-6)
-
     def test_six_funscripts_have_all_axes_and_are_read_back(self):
         peaks = (.2, .1, .05, .02, .01, .004)
         self.make_track(sample=lambda ms: [peak * math.sin(.02 * ms + i) for i, peak in enumerate(peaks)])
@@ -140,34 +124,6 @@ class Conversion(track_case.TrackCase):
         self.path("film.avi.haptic.flac").unlink()
         self.path("film.pitch.funscript").write_text("{")
         self.assert_said("film.pitch.funscript: it is no JSON", "info", "film.avi")
-
-    def test_hjif_beside_a_film_is_its_track(self):
-        """Where it has no other one."""
-        self.make_film("film.avi", frames=50)
-        self.make_track("a.wav", 500)
-        for name in ("film.avi.hjif", "film.hjif"):
-            self.spidartrack("convert", "a.wav", name)
-            info = json.loads(self.spidartrack("info", "--json", "film.avi"))
-            self.assertEqual((info["track"], info["samples"], info["belongs"]), (name, 500, True))
-            self.path(name).unlink()
-        self.path("film.hjif").write_text('{"perceptions":[{"perception_modality":"Vibrotactile"}]}')
-        self.assert_said("film.hjif: the file has no perception of modality Force, only perceptions[0] (Vibrotactile)",
-                         "info", "film.avi")
-        self.write_script("film.funscript")
-        self.assertEqual(json.loads(self.spidartrack("info", "--json", "film.avi"))["track"], "film.funscript")
-
-    def test_a_script_may_have_several_axes(self):
-        roll = [{"at": 0, "pos": 50}, {"at": 500, "pos": 100}]
-        for more in ({"axes": [{"id": "R1", "actions": roll}, {"id": "V0", "actions": roll}]},
-                     {"channels": {"roll": {"actions": roll}, "V0": {"actions": roll}}}):
-            self.write_script("a.funscript", **more)
-            said = self.spidartrack("convert", "a.funscript", "b.wav")
-            self.assertIn(": tz, gain 10 taken back: 100 % is 0.1 N m\nV0 of a.funscript: is not read\n", said)
-            read = self.samples("b.wav")
-            self.assertAlmostEqual(read[250][1], .3, delta=1e-6)
-            self.assertAlmostEqual(read[500][5], .1, delta=1e-6)
-            said = self.spidartrack("convert", "a.funscript", "b.wav", "--axis", "fx")
-            self.assertRegex(said, "(R1|roll) of a.funscript: is not read")
 
     def test_what_a_format_cannot_hold_is_said(self):
         self.make_track(sample=lambda ms: (ms / 100, 0, 0, 0, 0, 0), count=101)
@@ -417,13 +373,6 @@ class Conversion(track_case.TrackCase):
             self.assertEqual(json.loads(self.spidartrack("info", "a.wav", "--json"))["felt"], felt / 100)
         self.make_track(sample=lambda ms: (0, 0, 0, 0, 0, .05 * (ms < 500)))
         self.assertIn(f"a.wav: 50 % of it is felt; in the rest {least}\n", self.spidartrack("check", "a.wav", status=None))
-
-    @track_case.needs("gnuplot")
-    def test_a_plot_is_a_png(self):
-        self.make_track()
-        self.spidartrack("plot", "a.wav", "A.PNG")
-        self.assertEqual(self.path("A.PNG").read_bytes()[:4], b"\x89PNG")
-        self.assert_said("a.jpg: the picture is a PNG", "plot", "a.wav", "a.jpg", status=2)
 
 
 if __name__ == "__main__":

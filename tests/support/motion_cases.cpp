@@ -86,54 +86,9 @@ Film brightness(FilmStudio& s) {
   return film;
 }
 
-Film heavy_motion_blur(FilmStudio& s) {
-  Film film = object_at(s, 30);
-  film.shutter = 1;
-  return film;
-}
-
-/// There and back: turns between two frames' exposures, so every displacement is 80 px.
-Film object_at_80(FilmStudio& s) {
-  Film film = s.still_film();
-  const double u = s.unit();
-  film.objects = {s.object(FilmStudio::kFraction, [u](double t) {
-    const double phase = std::fmod(t, 10);
-    const double steps = phase < 5 ? phase : 10 - phase;
-    return Affine2d(Translation2d(u * Vector2d(-200 + 80 * steps, 10)));
-  })};
-  return film;
-}
-
 Film tiny_object(FilmStudio& s) {
   Film film = s.still_film();
   film.objects = {s.object(0.01, s.crossing({10, 3}), "tiny")};
-  return film;
-}
-
-Film on_plain(FilmStudio& s) {
-  Film film = s.behind(s.plain(), still());
-  film.objects = {s.object(FilmStudio::kFraction, s.crossing({10, 3}))};
-  return film;
-}
-
-Film periodic(FilmStudio& s) {
-  Film film = s.still_film();
-  const double u = s.unit();
-  film.background = {std::make_shared<SplineSheet>(periodic_sheet(1000 * u, 600 * u, 16 * u)),
-                     straight({0, 0}, u * Vector2d(3, 1))};
-  film.objects = {s.object(FilmStudio::kFraction, s.crossing({10, -2}))};
-  return film;
-}
-
-Film textureless(FilmStudio& s) {
-  Film film = object_at(s, kNormal_px);
-  film.objects[0].sheet = s.plain();
-  return film;
-}
-
-Film strobe(FilmStudio& s) {
-  Film film = s.pan_with_object();
-  film.light = [](int n) { return n % 2 == 0 ? Light() : Light{0.4, 5}; };
   return film;
 }
 
@@ -212,14 +167,7 @@ std::vector<MotionCase> all_cases() {
           "x264-object", usual, [](FilmStudio& s) { return object_at(s, kNormal_px); }, true),
       make(
           "x264-pan-object", usual, [](FilmStudio& s) { return s.pan_with_object(); }, true),
-      make("camera-80px", hard, [](FilmStudio& s) { return s.pan(80, 0); }),
-      make("object-80px", hard, object_at_80),
       make("tiny-object", hard, tiny_object),
-      make("heavy-motion-blur", hard, heavy_motion_blur),
-      make("strobe", hard, strobe),
-      make("plain-background", hard, on_plain),
-      make("periodic-background", hard, periodic),
-      make("textureless-object", hard, textureless),
       make("still", silent, [](FilmStudio& s) { return s.still_film(); }),
       make("flat", silent, [](FilmStudio& s) { return s.behind(s.plain(), still()); }),
       make("noise-only", silent, noise_only),

@@ -169,12 +169,4 @@ SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d&
   return sheet;
 }
 
-SplineSheet periodic_sheet(double width_px, double height_px, double period_px) {
-  SplineSheet sheet(width_px, height_px);
-  sheet.fill([period_px](double x, double y) {
-    return 128 + 50 * (std::cos(2 * M_PI * x / period_px) + std::cos(2 * M_PI * y / period_px));
-  });
-  return sheet;
-}
-
 }  // namespace spidar::test

@@ -26,7 +26,4 @@ SplineSheet plain_sheet(double grey);
 SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d& through_px,
                        const Eigen::Vector2d& normal);
 
-/// A lattice of blobs that repeats every `period_px`.
-SplineSheet periodic_sheet(double width_px, double height_px, double period_px);
-
 }  // namespace spidar::test

@@ -115,35 +115,6 @@ TEST_F(WindowTest, APictureThatCannotBeWrittenSaysWhy) {
             std::string::npos);
 }
 
-TEST_F(WindowTest, APictureReplacesNothingElse) {
-  const TemporaryFolder folder;
-  const std::string path = folder.path / "film.png";
-  const std::string precious = "the only copy of a film";
-  std::ofstream(path) << precious;
-  window::Window window(std::make_shared<FakeSource>());
-  EXPECT_NE(window.take_picture(path, kLong).find("not as a debug window left it"),
-            std::string::npos);
-  std::string found;
-  std::getline(std::ifstream(path), found);
-  EXPECT_EQ(found, precious);
-}
-
-TEST_F(WindowTest, CanBeMadeSmallAndLarge) {
-  window::Window window(std::make_shared<FakeSource>());
-  give(window, {});
-  for (const auto& [width, height] : {std::pair{640, 480}, {200, 700}, {1270, 790}}) {
-    window::UserInput input;
-    input.size_px = Eigen::Vector2d(width, height);
-    window.input(input);
-    Screenshot shot;
-    do {  // the X server tells of the new size when it likes
-      shot = look(window);
-    } while ((shot.width != width || shot.height != height) && !HasFailure());
-    const Eigen::Vector2d middle = map_of(shot)({100, 100});
-    EXPECT_TRUE(is_grey(at(shot, middle.x(), middle.y())));
-  }
-}
-
 TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
   window::Window window(std::make_shared<FakeSource>());
   give(window, {}, 60);

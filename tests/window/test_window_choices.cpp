@@ -87,15 +87,6 @@ TEST_F(WindowChoices, SavedOnesAreSavedAgainWhenTheWindowIsClosed) {
   EXPECT_EQ(source->wait_for_saves(2)[1].second[0].to_ns, 540 * kMillisecond);
 }
 
-TEST_F(WindowChoices, OfALiveSourceAreNotSaved) {
-  play("");
-  click(1);
-  EXPECT_TRUE(source->wait_for_choices(1)[0]);
-  press(window, GLFW_KEY_C);
-  look(window);
-  EXPECT_TRUE(source->wait_for_saves(0).empty());
-}
-
 TEST_F(WindowChoices, OfAFilmThatIsOverCanStillBeSaved) {
   play("/first.avi");
   click(1);

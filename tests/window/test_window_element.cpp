@@ -15,7 +15,6 @@
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
 #include "tests/support/video_frames.h"
-#include "tests/support/wav_track.h"
 #include "tests/window/window_fixture.h"
 
 namespace spidar::test::window_element_test {
@@ -86,22 +85,6 @@ TEST_F(WindowElement, ShowsTheFramesAndChangesSettings) {
   EXPECT_TRUE(mute);
   EXPECT_NEAR(max_force, 2.1, 1e-9);
   EXPECT_TRUE(h->warnings().empty());
-}
-
-TEST_F(WindowElement, ShowsTheFilmAndTheForceOfAHapticTrack) {
-  const TemporaryFolder folder;
-  const std::string track = (folder.path / "film.haptic.wav").string();
-  write_track(track, 400, [](double) { return TrackSample{0.15F, 0, 0, 0, 0, 0}; });
-  open("device=sim debug-window=true max-force=2 track=" + track);
-  tick(300);
-  while (!window()->wants_frame()) g_usleep(1000);
-  for (int n = 0; n < 4; ++n) push_next();
-  const Screenshot shot = look(*window());
-  // 1.5 N to the right of the middle; max-force is a fifth of the height of the picture.
-  const window::PictureMap map = map_of(shot);
-  const double arrow_px = 0.15 * map.shown.height;
-  EXPECT_TRUE(is_white(at(shot, map.shown.x + map.shown.width / 2 + arrow_px / 2,
-                          map.shown.y + map.shown.height / 2)));
 }
 
 TEST_F(WindowElement, ClosedByTheUserTheVideoGoesOn) {

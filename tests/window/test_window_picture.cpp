@@ -127,41 +127,6 @@ TEST_F(WindowTest, AtTheEndOfTheFilmPPlaysItAgain) {
   EXPECT_TRUE(source->wait_for_plays(0).empty()) << "it plays already";
 }
 
-TEST_F(WindowTest, TheKeysOneAndTwoChangeBetweenTwoSettings) {
-  window::ElementState state;
-  state.settings.resize(1);
-  state.settings[0].name = "max-force";
-  state.settings[0].high = 20;
-  state.settings[0].value = 2;
-  auto source = std::make_shared<FakeSource>(state);
-  window::Window window(source);
-  look(window);
-  press(window, GLFW_KEY_2);
-  look(window);
-  state.settings[0].value = 1.5;
-  source->change(state);
-  look(window);
-  look(window);
-  press(window, GLFW_KEY_1);
-  EXPECT_EQ(source->wait_for_sets(1)[0], (std::pair<std::string, double>("max-force", 2)));
-}
-
-TEST_F(WindowTest, ThePictureIsTheOneOnTheScreenWhoseForceTheGripFeels) {
-  window::ElementState state;
-  DeviceView& device = state.device.emplace();
-  device.name = "sim";
-  device.last.playing = true;
-  device.last.running_ns = 1'000'000'000;
-  window::Window window(std::make_shared<FakeSource>(state));
-  DrawnFrame report;
-  for (const auto& [running_ns, level] : {std::pair{960'000'000, 60}, {1'040'000'000, 160}}) {
-    report.stamp.running_ns = running_ns;
-    give(window, report, level);
-    look(window);
-  }
-  EXPECT_NEAR(level_in(window), 60, 1);
-}
-
 TEST_F(WindowTest, AClickOnAnObjectChoosesIt) {
   auto source = std::make_shared<FakeSource>();
   window::Window window(source);

@@ -13,10 +13,6 @@
 namespace spidar::test::window_touched_test {
 namespace {
 
-bool is_orange(const Color& c) {
-  return c.r > 220 && c.g > 150 && c.g < 220 && c.b < 100;
-}
-
 /// A simulated SPIDAR-GCC whose grip presses on the surface in the left upper quarter; the proxy is
 /// in the right one.
 window::ElementState touching_state() {
@@ -40,25 +36,6 @@ DrawnFrame touched_facts(const StringGeometry& geometry) {
   report.touch.on = true;
   report.touch.pointer = GripPointer(geometry);
   return report;
-}
-
-TEST_F(WindowTest, FingerAndProxyAreInThePicture) {
-  const window::ElementState state = touching_state();
-  window::Window window(std::make_shared<FakeSource>(state));
-  DrawnFrame report = touched_facts(state.device->geometry);
-  give(window, report, 40);
-  const Screenshot shot = look(window);
-  const window::PictureMap map = map_of(shot);
-  const auto color = [&](double x_px, double y_px) {
-    const Eigen::Vector2d p = map({x_px, y_px});
-    return at(shot, p.x(), p.y());
-  };
-  // In a frame of 320 × 240: the finger at (80, 60), a ring of 11 / 2 px; the proxy at (240, 60),
-  // and its force down, a fifth of 240 lines.
-  EXPECT_TRUE(is_white(color(79.5 + 5.5, 59.5))) << shown(color(79.5 + 5.5, 59.5));
-  EXPECT_TRUE(is_grey(color(79.5, 59.5))) << "within the ring: " << shown(color(79.5, 59.5));
-  EXPECT_TRUE(is_orange(color(239.5, 59.5))) << shown(color(239.5, 59.5));
-  EXPECT_TRUE(is_white(color(239.5, 59.5 + 24)));
 }
 
 /// The shadow is in the left upper quarter of what a viewer sees.
@@ -117,22 +94,6 @@ TEST_F(WindowTest, TheMouseLeadsTheHandOfASimulatedDevice) {
   }
   const FakeSource::Led led = source->wait_for_led(4);
   EXPECT_FALSE(led[3].has_value()) << "the window was closed";
-}
-
-TEST_F(WindowTest, TheMouseLeadsNoOtherHand) {
-  window::ElementState state = touching_state();
-  state.device->has_hand = false;
-  auto source = std::make_shared<FakeSource>(state);
-  window::Window window(source);
-  give(window, {});
-  const window::Rect picture = map_of(look(window)).shown;
-  window::Mouse mouse;
-  mouse.at_px = {picture.x + picture.width / 2, picture.y + picture.height / 2};
-  mouse.down = true;
-  set_mouse(window, mouse);
-  look(window);
-  look(window);
-  EXPECT_TRUE(source->wait_for_led(0).empty());
 }
 
 }  // namespace
