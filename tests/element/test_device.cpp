@@ -205,14 +205,6 @@ TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {
   }
 }
 
-TEST_F(DeviceTest, MaxForceHoldsAtOnceWhilePlaying) {
-  open("device=sim max-force=3");
-  push_next();
-  g_object_set(h->element(), "max-force", 0.5, nullptr);
-  push_next();
-  EXPECT_LE(h->motions().back().wrench.force_N.norm(), 0.5);
-}
-
 TEST_F(DeviceTest, ALowerMaxForceIsApproachedFromTheNextTickOnAndNeedsNoFrame) {
   open("device=sim alpha=0.01");
   play();
@@ -239,62 +231,6 @@ TEST_F(DeviceTest, MaxForceOfAClosedElementHoldsWhenItOpens) {
   gst_element_set_state(h->element(), GST_STATE_PLAYING);
   tick();
   EXPECT_EQ(loop().snapshot().limits.max_force_N, 0.25);
-}
-
-TEST_F(DeviceTest, MuteRampsToRestAndHoldsIt) {
-  open("device=sim alpha=0.01");
-  play();
-  const auto play_frame = [&] {
-    push_next();
-    tick(40);
-  };
-  for (int n = 0; n < 5; ++n) play_frame();
-  EXPECT_GT(force_N(), 0.5) << "50 px/s by eq. 15: 0.89 N";
-
-  g_object_set(h->element(), "mute", TRUE, nullptr);
-  double before_N = force_N();
-  // Not a step: a stale command falls by at most 1.5 max-force / ramp_s, 4.5 N / 40 ms, and is gone
-  // then.
-  push_next();
-  for (int ms = 0; ms < 40; ++ms) {
-    tick();
-    EXPECT_LE(std::abs(force_N() - before_N), 4.5 / 40 + 1e-9) << ms;
-    before_N = force_N();
-  }
-  EXPECT_NEAR(force_N(), 0, 1e-9);
-  for (int n = 0; n < 3; ++n) play_frame();
-  EXPECT_EQ(force_N(), 0) << "frames go on, forces do not";
-  EXPECT_GT(loop().snapshot().last.tension_N.minCoeff(), 0) << "strings stay taut";
-
-  g_object_set(h->element(), "mute", FALSE, nullptr);
-  for (int n = 0; n < 4; ++n) play_frame();
-  EXPECT_GT(force_N(), 0.5);
-}
-
-TEST_F(DeviceTest, ASlightlyLateFrameLeavesNoDipAndAMissingOneEndsIn50ms) {
-  open("device=sim alpha=0.01");
-  play();
-  // Live and without latency: each frame is analysed when it is due, or up to 8 ms later.
-  const int late_ms[] = {0, 0, 0, 0, 0, 0, 8, 1, 0, 6, 8, 0};
-  double steady_N = 0;
-  int shown_ms = 0;
-  int met_ms = 0;
-  for (const int late : late_ms) {
-    for (const int due_ms = frames * 40 + late; shown_ms < due_ms; ++shown_ms) {
-      tick();
-      // The same motion in every frame but for what the tracker rounds, which shows while a frame
-      // is approached; from then on nothing changes.
-      if (shown_ms < met_ms) steady_N = force_N();
-      if (frames < 5) continue;
-      ASSERT_GE(force_N(), steady_N * (1 - 1e-12)) << "frame " << frames << ", " << shown_ms;
-    }
-    push_next();
-    met_ms =
-        shown_ms + static_cast<int>(WrenchTimeline::approach_after(40'000'000) / 1'000'000) + 1;
-  }
-  ASSERT_GT(steady_N, 0.5);
-  tick(frames * 40 + 50 - shown_ms);
-  EXPECT_EQ(force_N(), 0);
 }
 
 TEST_F(DeviceTest, IsAtRestWhenTheElementIsClosed) {
