@@ -23,7 +23,7 @@ bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
   return true;
 }
 
-/// The part of the picture that the film has, by what is known before it.
+/// The part of the picture that shows the film, as far as earlier pictures have told.
 PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
   const PicturePart all = settings_.area.of_picture(picture.width, picture.height);
   if (settings_.area.kind != AreaSetting::Kind::kAuto) return all;
@@ -43,7 +43,7 @@ PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
           (is_at_bottom ? picture.height : factor * bottom) - y};
 }
 
-/// Shows the picture to the finder, reduced as the analysis has done it if the film is all of it.
+/// Shows the reduced picture to the finder. Where the film fills it, the analysis has made it.
 void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls) {
   const bool is_reduced =
       !by_points() && frame_.place == FilmPlace::whole(picture.width, picture.height);
@@ -55,10 +55,10 @@ void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns,
   frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
 
-/// Finds what moves, unless the picture waits. Returns whether it does not.
+/// Finds what moves. Returns false, and measures nothing, while the picture waits.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   const PicturePart area = area_of(picture);
-  // Of another area, nothing is known that the next frame could be compared with.
+  // The previous frame showed another area, so there is nothing to compare this one with.
   if (area != frame_.place.area) {
     reset_measuring();
     page_scroll_.reset();

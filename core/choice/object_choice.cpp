@@ -18,22 +18,22 @@ Chosen::State BoxedObject::state() const {
   return has_box_ ? Chosen::State::kBoxAtRest : Chosen::State::kNoBox;
 }
 
-/// The object in sight that has most in common with the box for their size; null when that is not
-/// enough.
+/// The object in sight with the largest intersection over union with the box; null when none
+/// overlaps it enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceInput& frame) const {
   const Eigen::AlignedBox2d box_px = frame.px(box.position, box.far_corner);
   const double box_px2 = area_px2(box_px);
   const MovingObject* best = nullptr;
-  double best_fraction = 0;
+  double best_over_union = 0;
   for (const MovingObject& object : frame.objects) {
     if (object.points == 0) continue;
-    const double common_px2 = area_px2(box_px.intersection(object.box_px()));
+    const double overlap_px2 = area_px2(box_px.intersection(object.box_px()));
     const double object_px2 = object.size_px.prod();
-    if (common_px2 <= 0 || common_px2 < kOverlap * std::min(box_px2, object_px2)) continue;
-    const double fraction = common_px2 / (box_px2 + object_px2 - common_px2);
-    if (fraction <= best_fraction) continue;
+    if (overlap_px2 <= 0 || overlap_px2 < kOverlap * std::min(box_px2, object_px2)) continue;
+    const double over_union = overlap_px2 / (box_px2 + object_px2 - overlap_px2);
+    if (over_union <= best_over_union) continue;
     best = &object;
-    best_fraction = fraction;
+    best_over_union = over_union;
   }
   return best;
 }
@@ -66,10 +66,10 @@ const MovingObject* BoxedObject::update(const ChoiceInput& frame) {
 
 namespace {
 
-/// Motions of an object before and after differ by less than this fraction of the faster one.
+/// The velocities before and after a loss differ by less than this fraction of the faster one.
 constexpr double kSameVelocity = 0.5;
 
-/// How well an object meets the rule, so that one that does so by 1 more takes the other's place.
+/// How well an object meets the rule. One whose score is higher by 1 takes the place of another.
 double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput& frame) {
   if (rule.kind == FeelRule::Kind::kLargest) {
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
@@ -78,7 +78,7 @@ double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput
   return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height());
 }
 
-/// Whether `now` is the rule `before` in other words, so that its object need not be found anew.
+/// Whether both rules mean the same object, which then need not be found again.
 bool continues(const FeelRule& before, const FeelRule& now) {
   return before.kind == now.kind && before.kind != FeelRule::Kind::kBox &&
          before.from_ns == now.from_ns && before.position == now.position &&
@@ -105,9 +105,9 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// The object that it may be and whose box is nearest to the position, the smallest one if there
-/// are several; null when none is within reach. While it is looked for, objects are taken back to
-/// where they were at begin().
+/// Of the objects that it may be, the one whose box is nearest to the position, and the smallest of
+/// several; null when none is within reach. While it is looked for, objects count where they were
+/// at begin().
 const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
                                                 double reach_px) const {
   const MovingObject* best = nullptr;

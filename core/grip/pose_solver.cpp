@@ -46,7 +46,7 @@ constexpr double kResidualWeight = 8;
 // that has moved this far, some three hundred encoder steps, and fitted on the whole way, is not
 // dead. It is not left out for longer, because without it the strings may not be able to brake.
 constexpr int kTicksToTrust = 100;
-constexpr double kWayToTrust_m = 5e-3;
+constexpr double kMovedToTrust_m = 5e-3;
 
 }  // namespace
 
@@ -221,9 +221,9 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
   if (!fitting) fitting_ticks_ = 0;
   if (!fitting) return i;
   if (fitting_ticks_++ == 0) fitting_from_m_ = lengths_m[i];
-  const double way_m = std::abs(lengths_m[i] - fitting_from_m_);
-  const bool moved = way_m > 2 * kMisfit * max_residual_m_;
-  const bool trusted = way_m > kWayToTrust_m || (fitting_ticks_ > kTicksToTrust && moved);
+  const double moved_m = std::abs(lengths_m[i] - fitting_from_m_);
+  const bool moved = moved_m > 2 * kMisfit * max_residual_m_;
+  const bool trusted = moved_m > kMovedToTrust_m || (fitting_ticks_ > kTicksToTrust && moved);
   return trusted ? -1 : i;
 }
 

@@ -74,12 +74,12 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
     reset();
     return Eigen::Vector3d::Zero();
   }
-  const Eigen::Vector3d way_m = started_ ? grip_m - last_m_ : Eigen::Vector3d(0, 0, 0);
+  const Eigen::Vector3d moved_m = started_ ? grip_m - last_m_ : Eigen::Vector3d(0, 0, 0);
   follow(grip_m, dt_s);
   proxy_.move(surface, settings.friction, grip_m, dt_s);
   Eigen::Vector3d force_N = wanted_N(texture, settings, grip_m);
   if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
-  follow_energy(settings, way_m, grip_m);
+  follow_energy(settings, moved_m, grip_m);
   const ForcePath path = path_of(settings);
   force_N *= budget_.allowed_fraction(force_N, path, dt_s);
   budget_.command(force_N, settings.beside_N, path, dt_s);
@@ -87,10 +87,10 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
 }
 
 /// Energy that a moving surface puts into the spring may be returned to the hand.
-void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
+void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::Vector3d& moved_m,
                                  const Eigen::Vector3d& grip_m) noexcept {
   if (!proxy_.touching()) {
-    budget_.update(way_m, velocity_m_s_, 0, 0);
+    budget_.update(moved_m, velocity_m_s_, 0, 0);
     return;
   }
   // Above max_force_N the spring yields.
@@ -101,7 +101,7 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   // A receding surface takes energy out at the actual force, which the bound may keep below the
   // spring force.
   if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
-  budget_.update(way_m, velocity_m_s_, put_in_J, stored_J);
+  budget_.update(moved_m, velocity_m_s_, put_in_J, stored_J);
 }
 
 /// The force before the energy bound is applied.

@@ -81,7 +81,7 @@ class ContactForce {
   void follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept;
   Eigen::Vector3d wanted_N(const HeightField* texture, const ContactSettings& settings,
                            const Eigen::Vector3d& grip_m) const noexcept;
-  void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& way_m,
+  void follow_energy(const ContactSettings& settings, const Eigen::Vector3d& moved_m,
                      const Eigen::Vector3d& grip_m) noexcept;
 
   Proxy proxy_;

@@ -16,9 +16,9 @@ Eigen::Vector3d bounded(const Eigen::Vector3d& vector, double most) noexcept {
 
 }  // namespace
 
-void EnergyBudget::update(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s,
+void EnergyBudget::update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& velocity_m_s,
                           double put_in_J, double stored_J) noexcept {
-  left_J_ = std::min(left_J_ - before_N_.dot(way_m) + put_in_J, stored_J);
+  left_J_ = std::min(left_J_ - before_N_.dot(moved_m) + put_in_J, stored_J);
   velocity_m_s_.add(velocity_m_s);
 }
 

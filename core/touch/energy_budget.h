@@ -42,11 +42,11 @@ struct ForcePath {
 /// shorter.
 class EnergyBudget {
  public:
-  /// Call once per tick, before choosing the force. `way_m` is the displacement of the grip since
+  /// Call once per tick, before choosing the force. `moved_m` is the displacement of the grip since
   /// the last tick, from the poses of the last two exchanges. `put_in_J` is the energy added by the
   /// motion of the surface. `stored_J` is the energy stored in the spring, 0 without contact; the
   /// energy left never exceeds it.
-  void update(const Eigen::Vector3d& way_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
+  void update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
               double stored_J) noexcept;
 
   /// The fraction of `wanted_N` that is allowed. A force that was bounded rises again no faster

@@ -75,8 +75,8 @@ void Proxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vect
   if (!(depth_m > 0)) return;
   double explained_m = kFastest_m_s * dt_s;
   if (started_) {
-    const Eigen::Vector3d way_m = grip_m - last_grip_m_;
-    explained_m += std::max(0.0, -way_m.z()) + kSteepest * way_m.head<2>().norm();
+    const Eigen::Vector3d moved_m = grip_m - last_grip_m_;
+    explained_m += std::max(0.0, -moved_m.z()) + kSteepest * moved_m.head<2>().norm();
   }
   if (depth_m > explained_m) shift_m_ -= depth_m - explained_m;
   touching_ = true;
@@ -104,21 +104,21 @@ void Proxy::walk(const MovingRelief& surface, double friction,
       if (sliding_ && distance_m < kSticksAgain * held_m) sliding_ = false;
       if (!sliding_ && distance_m <= friction * depth_m) return;
     }
-    const double way_m = std::min(distance_m - held_m, longest_m);
-    if (!(way_m > kMinStep_m)) return;
+    const double length_m = std::min(distance_m - held_m, longest_m);
+    if (!(length_m > kMinStep_m)) return;
     sliding_ = true;
-    if (!step(surface, along_m * (way_m / distance_m), grip_m)) return;
+    if (!step(surface, along_m * (length_m / distance_m), grip_m)) return;
   }
 }
 
-/// Moves by `way_m`, or a fraction of it, along the tangent plane and back onto the surface.
+/// Moves by `step_m`, or a fraction of it, along the tangent plane and back onto the surface.
 /// Returns false if no such step ends closer to the grip.
-bool Proxy::step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
+bool Proxy::step(const MovingRelief& surface, const Eigen::Vector3d& step_m,
                  const Eigen::Vector3d& grip_m) noexcept {
   const double now_m2 = (position_m_ - grip_m).squaredNorm();
   double fraction = 1;
   for (int n = 0; n <= kMaxHalvings; ++n, fraction *= 0.5) {
-    Eigen::Vector3d there_m = position_m_ + fraction * way_m;
+    Eigen::Vector3d there_m = position_m_ + fraction * step_m;
     const SurfacePoint at = surface.at(there_m.head<2>());
     there_m.z() = at.z_m + shift_m_;
     if ((there_m - grip_m).squaredNorm() < now_m2) {

@@ -82,7 +82,7 @@ class Proxy {
   void enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
              double dt_s) noexcept;
   void walk(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m) noexcept;
-  bool step(const MovingRelief& surface, const Eigen::Vector3d& way_m,
+  bool step(const MovingRelief& surface, const Eigen::Vector3d& step_m,
             const Eigen::Vector3d& grip_m) noexcept;
   void leave(const Eigen::Vector3d& grip_m) noexcept;
 

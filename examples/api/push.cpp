@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Opens a device and pushes its grip in a circle for a second:
-//   push [DEVICE]     sim, the simulated SPIDAR, when none is named
+//   push [DEVICE]     default: sim, the simulated SPIDAR
 // Needs nothing but libgst-spidar: g++ -std=c++17 push.cpp $(pkg-config --cflags --libs gst-spidar)
 #include <chrono>
 #include <cmath>
@@ -17,8 +17,8 @@ int main(int argc, char** argv) {
     gst_spidar::Device device(argc > 1 ? argv[1] : "sim");
     device.set_limits(2.0, 0.05);
     double strongest_N = 0;
-    for (int tenth = 0; tenth < 100; ++tenth) {
-      const double angle = 2 * M_PI * tenth / 100;
+    for (int step = 0; step < 100; ++step) {
+      const double angle = 2 * M_PI * step / 100;
       gst_spidar::Wrench wrench;
       wrench.force_N = {std::cos(angle), std::sin(angle), 0};
       device.push(wrench);

@@ -26,21 +26,21 @@ void PositionFilter::reset(int64_t now_ns, int64_t position_ns, double rate) {
   rate_ = rate;
   position_ns_ = position_ns;
   newest_ns_ = now_ns;
-  jumped_ = is_goal_ = false;
+  jumped_ = is_target_ = false;
   keep(begin_of(now_ns, position_ns));
 }
 
 void PositionFilter::change_rate(int64_t now_ns, double rate) {
-  // Told again, this is no news, and late.
-  const int64_t told_ns = position_ns_;
+  // add() ignores this position if it is reported again: it would be late.
+  const int64_t reported_ns = position_ns_;
   reset(now_ns, position_at(now_ns), rate);
-  position_ns_ = told_ns;
+  position_ns_ = reported_ns;
 }
 
-/// Players tell where they jump to before they are there.
+/// Players report the target of a jump before they have reached it.
 void PositionFilter::reset_after_jump(int64_t now_ns, int64_t position_ns) {
   reset(now_ns, position_ns, rate_);
-  is_goal_ = true;
+  is_target_ = true;
 }
 
 void PositionFilter::add(int64_t now_ns, int64_t position_ns) {
@@ -49,14 +49,14 @@ void PositionFilter::add(int64_t now_ns, int64_t position_ns) {
   position_ns_ = position_ns;
   newest_ns_ = now_ns;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
-  const bool jumped = std::abs(late_ns) > kLatest_ns;
-  // One alone may be of a moment in which the player, or this process, was held up.
+  const bool jumped = std::abs(late_ns) > kMaxLate_ns;
+  // A single late one may come from a moment in which the player, or this process, was held up.
   if (jumped && (jumped_ || late_ns < 0 || count_ == 1)) {
     return reset_after_jump(now_ns, position_ns);
   }
   jumped_ = jumped;
   if (jumped) return;
-  if (std::exchange(is_goal_, false)) count_ = 0;
+  if (std::exchange(is_target_, false)) count_ = 0;
   keep(begin_of(now_ns, position_ns));
 }
 
@@ -64,8 +64,8 @@ void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
   if (!has_begun()) return;
   backward_ = 0;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
-  if (std::abs(late_ns) > kLatest_ns) return reset_after_jump(now_ns, position_ns);
-  is_goal_ = true;  // it may have stopped for a moment
+  if (std::abs(late_ns) > kMaxLate_ns) return reset_after_jump(now_ns, position_ns);
+  is_target_ = true;  // it may have stopped for a moment
 }
 
 int64_t PositionFilter::position_at(int64_t now_ns) const {
@@ -74,7 +74,7 @@ int64_t PositionFilter::position_at(int64_t now_ns) const {
 
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling) {
   const double most = is_settling ? 0.5 : 0.02;
-  // So that what the filter jitters by is smoothed.
+  // Long enough to smooth the jitter of the filter.
   const double time_ns = is_settling ? 0.1e9 : 0.5e9;
   const auto passed = static_cast<double>(passed_ns);
   const double wanted = static_cast<double>(error_ns) * passed / time_ns;

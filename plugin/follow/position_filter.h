@@ -11,13 +11,13 @@ namespace spidar::follow {
 
 /// A player cannot report a position before it has reached it, but may report it late: mpv reports
 /// 24 positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114
-/// ms late. So the earliest of the last ones is trusted. Times are of CLOCK_MONOTONIC.
+/// ms late. So the filter trusts the report with the least delay. Times are of CLOCK_MONOTONIC.
 class PositionFilter {
  public:
   /// The number of positions that VLC reports in 3 s.
   static constexpr size_t kKept = 8;
-  /// More than any player was seen to be late: a position that is later is one after a jump.
-  static constexpr int64_t kLatest_ns = 150'000'000;
+  /// No player was seen to report as late as this: a larger difference is a jump.
+  static constexpr int64_t kMaxLate_ns = 150'000'000;
   /// This many positions in a row, each before the last, are no jumps that a person makes: VLC
   /// reports three in a second.
   static constexpr int kBackward = 3;
@@ -26,7 +26,7 @@ class PositionFilter {
   void reset(int64_t now_ns, int64_t position_ns, double rate);
   /// The player goes on at another rate.
   void change_rate(int64_t now_ns, double rate);
-  /// The player reports this position, which is no news if it is the same as before.
+  /// The player reports this position. The same one again is ignored.
   void add(int64_t now_ns, int64_t position_ns);
   /// The player reports a jump to this position. VLC also does so when there was none.
   void tell_jump(int64_t now_ns, int64_t position_ns);
@@ -51,14 +51,14 @@ class PositionFilter {
   double rate_ = 1;
   int64_t position_ns_ = 0;  ///< the newest that was reported
   int64_t newest_ns_ = 0;
-  int backward_ = 0;      ///< positions in a row, each before the last
-  bool jumped_ = false;   ///< the newest was too late for one of this playback
-  bool is_goal_ = false;  ///< what is known counts until the next position
+  int backward_ = 0;        ///< positions in a row, each before the last
+  bool jumped_ = false;     ///< the newest differed by more than kMaxLate_ns
+  bool is_target_ = false;  ///< a jump was reported: the next position replaces what is known
 };
 
-/// By how much to shift, after `passed_ns`, a film that is `error_ns` behind the player: by at most
-/// 2 % of that time, which is not felt; while `is_settling`, in the first second after a jump, by
-/// at most half of it, because little has been felt yet that the force has to fit.
+/// By how much to shift a film that is `error_ns` behind the player, `passed_ns` after the last
+/// shift: by at most 2 % of that time, which is not felt; while `is_settling`, in the first second
+/// after a jump, by at most half of it, because hardly any force has been felt yet.
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 
 }  // namespace spidar::follow

@@ -37,8 +37,8 @@ namespace spidar {
 /// - par_n, par_d: pixel_aspect(); motion is measured in square pixels (SquarePixelResampler).
 /// - multiview_mode, HALF_ASPECT of its flags, or the shape of the frame where the flag is not set:
 ///   visible_part() and pixel_aspect(). Of two pictures in one frame the first is analysed, since
-///   both show the same motion; of frames in turn, those that have the time of the previous one are
-///   left out.
+///   both show the same motion; where views alternate from frame to frame, a frame with the time of
+///   the previous one is left out.
 /// - other multiview flags say which eye a picture is for, and not where it is.
 /// - views counts pictures in planes or buffers of their own, of which the first one is mapped.
 /// - colorimetry: luma_levels() reads the range, black and white of touch=luma. Motion is where
@@ -53,9 +53,9 @@ namespace spidar {
 /// views beside or above each other, the first.
 PicturePart visible_part(const GstVideoFrame& frame);
 
-/// Width over height of a pixel as it is shown; 1 where the caps say nothing, or more than
-/// kMaxAspect or less than its inverse: no format goes beyond 2.84 (half of a side-by-side picture
-/// of PAL, 64:45), so that the header is taken for damaged.
+/// Width over height of a pixel as it is shown; 1 where the caps say nothing. Above kMaxAspect or
+/// below its inverse it is 1, too, because the header must be damaged: the widest pixels of any
+/// format have 2.84 (half of a side-by-side picture of PAL, 64:45).
 constexpr double kMaxAspect = 4;
 double pixel_aspect(const GstVideoInfo& info);
 
@@ -67,14 +67,13 @@ struct LumaLevels {
 LumaLevels luma_levels(const GstVideoInfo& info);
 
 /// Whether the mapped memory holds every line of every plane, one after the other from the top.
-/// GStreamer trusts a GstVideoMeta in that.
+/// GStreamer believes a GstVideoMeta without checking.
 bool holds_picture(const GstVideoFrame& frame);
 
 /// Reads plane 0 of planar and semi-planar formats in place, with its stride and its depth in bits;
 /// computes luma from packed RGB and from formats that have to be unpacked; honours a crop meta;
-/// takes the first field of interlaced frames, even of those that are not flagged, because the two
-/// fields are of two moments. With interlace-mode=mixed each frame says by its flags whether it is
-/// interlaced.
+/// takes only the first field of interlaced frames, flagged or not, because the two fields are of
+/// two moments. With interlace-mode=mixed, the flags of each frame say whether it is interlaced.
 class FrameLuma {
  public:
   /// In pixels; a crop may leave less.

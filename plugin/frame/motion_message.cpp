@@ -11,10 +11,10 @@ namespace spidar {
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
                          const FrameReport& report, gint* unread) {
   if (is_full_of_unread(*unread)) return;
-  GstStructure* s = gst_structure_new_empty("spidar-motion");
-  StructureFields to(s, kInMessage);
+  GstStructure* const structure = gst_structure_new_empty("spidar-motion");
+  StructureFields to(structure, kInMessage);
   frame_fields(report, {timestamp, duration}, to);
-  post_counted(element, gst_message_new_element(GST_OBJECT(element), s), *unread);
+  post_counted(element, gst_message_new_element(GST_OBJECT(element), structure), *unread);
 }
 
 }  // namespace spidar

@@ -125,7 +125,7 @@ class GripMotion {
   static constexpr int64_t kApart_ns =
       500'000;  ///< between a pose and the next but one, so that kPoses suffice
   static constexpr size_t kPoses = 2 * kFitted_ns / kApart_ns;
-  /// Two encoder steps, or the way of a hand at 0.5 m/s in 0.1 ms, the error of a time of reading.
+  /// Two encoder steps, or what a hand at 0.5 m/s moves in 0.1 ms, the error of a reading's time.
   static constexpr double kPoseError_m = 50e-6;
   /// The largest acceleration, by 3 N on kLightestGrip_kg, and how far the velocity gets from
   /// velocity() within its lag. Turns have the same proportions at the radius of a grip.

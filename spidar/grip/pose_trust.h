@@ -62,10 +62,10 @@ class PoseTrust {
   /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
   static constexpr double kJumpMargin_m = 2e-3;
 
-  /// Whether a grip at `way_m` from its newest pose has moved faster than a hand can.
-  bool is_jump(double way_m, int64_t read_ns) const noexcept {
+  /// Whether a grip that has moved by `moved_m` since its newest pose was faster than any hand.
+  bool is_jump(double moved_m, int64_t read_ns) const noexcept {
     const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
-    return located_ && way_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
+    return located_ && moved_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
   /// When a pose was read in the tick of `now_ns`, if the device says `read_ns`. If that is no time
   /// of this clock, or older than any trusted pose can be, the time of the tick counts.

@@ -68,9 +68,9 @@ class ReadingGate {
     const double margin_m =
         2 * error_m_ * (1 + ratio) + 0.5 * kMax_m_s2 * ahead_s * (ahead_s + passed_s);
     for (Eigen::Index i = 0; i < N; ++i) {
-      const double way_m = last.m[i] - before.m[i];
-      const double off_m = now_m[i] - last.m[i] - ratio * way_m;
-      const double late_m = kTimeError_s / passed_s * (1 + ratio) * std::fabs(way_m);
+      const double moved_m = last.m[i] - before.m[i];
+      const double off_m = now_m[i] - last.m[i] - ratio * moved_m;
+      const double late_m = kTimeError_s / passed_s * (1 + ratio) * std::fabs(moved_m);
       if (i != unreliable && std::fabs(off_m) > margin_m + late_m) return false;
     }
     return true;

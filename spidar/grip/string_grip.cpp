@@ -83,10 +83,10 @@ void GripWatch::update(const DeviceReading& reading, const GripCommand& command)
   }
   const PoseResult result = solver_.solve(lengths_m);
   residual_m_ = result.residual_m;
-  // A rotation counts as the way of the points at which the strings are tied.
-  const double way_m = (result.pose.position_m - pose_.position_m).norm() +
-                       radius_m_ * result.pose.orientation.angularDistance(pose_.orientation);
-  const bool jumps = trust_.is_jump(way_m, read_ns);
+  // A rotation counts as the displacement of the points at which the strings are tied.
+  const double moved_m = (result.pose.position_m - pose_.position_m).norm() +
+                         radius_m_ * result.pose.orientation.angularDistance(pose_.orientation);
+  const bool jumps = trust_.is_jump(moved_m, read_ns);
   follows_ = result.status == PoseStatus::kSolved && !jumps;
   PoseFault fault = judge(result, jumps);
   if (follows_ || fault == PoseFault::kJump) {
@@ -225,7 +225,7 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
 void StringGrip::update(const DeviceReading& answer, const GripCommand& command) noexcept {
   const int left_out = watch_.faulty_string();
   watch_.update(answer, command);
-  // Poses without a string that fits after all may have been wrong: the way from them to this one
+  // Poses without a string that fits after all may have been wrong: the step from them to this one
   // is no motion.
   if (left_out >= 0 && watch_.faulty_string() != left_out) reading_.motion.reset();
   if (watch_.trusted() || watch_.follows()) {

@@ -146,18 +146,18 @@ double TensionCommand::fraction_within(const StructureMatrix& W,
 }
 
 // A point that moves by w turns a string of length L by w / (L − w) at most. The force changes by
-// that for each newton of a string, the torque by that times the arm, and by the way of the arm.
+// that for each newton of a string, the torque by that times the arm, and by how far its end moves.
 bool TensionCommand::stays_within(const StructureMatrix& W, const SafetyLimits& limits,
-                                  const Pose& pose, double way_m) const noexcept {
+                                  const Pose& pose, double moved_m) const noexcept {
   // A point at r is moved by 2 r sin(θ/2) when the grip turns by θ.
   const double off_m = pose.position_m.norm() + 2 * reach_m_ * pose.orientation.vec().norm();
-  const double length_m = shortest_m_ - off_m - way_m;
+  const double length_m = shortest_m_ - off_m - moved_m;
   if (!(length_m > 0)) return false;
-  const double turn = way_m / length_m;
+  const double turn = moved_m / length_m;
   const double sum_N = last_N_.sum();
   const Wrench now = wrench_of(W, last_N_);
   return now.force_N.norm() + turn * sum_N <= limits.max_force_N &&
-         now.torque_Nm.norm() + (reach_m_ * turn + way_m) * sum_N <=
+         now.torque_Nm.norm() + (reach_m_ * turn + moved_m) * sum_N <=
              std::max(limits.max_torque_Nm, stray_Nm(limits));
 }
 
@@ -165,8 +165,8 @@ StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits&
                                    const Pose& pose, const GripMotion& motion) noexcept {
   if (!(last_size_N_ > 0)) return last_N_;
   const GripVelocity& now = motion.velocity();
-  const double way_m = ahead_s_ * (now.linear_m_s.norm() + reach_m_ * now.angular_rad_s.norm());
-  if (stays_within(W, limits, pose, way_m)) return last_N_;
+  const double moved_m = ahead_s_ * (now.linear_m_s.norm() + reach_m_ * now.angular_rad_s.norm());
+  if (stays_within(W, limits, pose, moved_m)) return last_N_;
   const StructureMatrix there = structure_matrix(geometry_, motion.pose_in(pose, ahead_s_));
   // The structure matrix changes little on the way: its ends bound the wrench between them.
   const double fraction = std::min(fraction_within(W, limits), fraction_within(there, limits));

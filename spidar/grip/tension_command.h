@@ -184,9 +184,9 @@ class TensionCommand {
   /// with the structure matrix `W`.
   double fraction_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
   /// Whether the last solve() is within `limits` at all poses that are reached from `pose` when no
-  /// point of the grip moves by more than `way_m`. False when a bound cannot tell.
+  /// point of the grip moves by more than `moved_m`. False when a bound cannot tell.
   bool stays_within(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
-                    double way_m) const noexcept;
+                    double moved_m) const noexcept;
   double stray_Nm(const SafetyLimits& limits) const noexcept;
 
   const StringGeometry geometry_;

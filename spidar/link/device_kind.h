@@ -45,7 +45,7 @@ constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
 
 struct DeviceKind {
   const char* device = "";  ///< what its name for make_grip() begins with: "usb"
-  const char* board = "";   ///< "sh4", for sim:sh4; that of the real device if there is one only
+  const char* board = "";   ///< "sh4", for sim:sh4; `device` again where that has one board only
   const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
   const char* names = "";   ///< how a real one may be named, separated by ", "
   UsbId usb = {};           ///< vendor 0 for one that is not on USB
@@ -103,7 +103,7 @@ std::unique_ptr<emulated::Board> emulate(std::shared_ptr<emulated::Motors> motor
   return std::make_unique<Emulated>(std::move(motors));
 }
 
-/// The number from 1 to `largest` in "NAME=NUMBER", of which `name` has the equals sign; 0 if
+/// The number from 1 to `largest` in an `option` "NAME=NUMBER", where `name` is "NAME="; 0 if
 /// `option` is something else.
 inline int option_value(const std::string& option, const std::string& name, int largest) {
   if (option.compare(0, name.size(), name) != 0) return 0;

@@ -108,8 +108,9 @@ class ForceGrip final : public Grip {
   /// reports.
   PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
-    const double way_m = (answer.position_m - reading_.pose.position_m).norm();
-    return traits_.can_fly && trust_.is_jump(way_m, read_ns) ? PoseFault::kJump : PoseFault::kNone;
+    const double moved_m = (answer.position_m - reading_.pose.position_m).norm();
+    return traits_.can_fly && trust_.is_jump(moved_m, read_ns) ? PoseFault::kJump
+                                                               : PoseFault::kNone;
   }
 
   /// More than a count of the coarsest device: the Falcon's moves its arm by 38 µm.

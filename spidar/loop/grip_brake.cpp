@@ -18,26 +18,26 @@ double left_at(double speed_m_s, const FadeBand& band) {
   return std::clamp((band.to_m_s - speed_m_s) / (band.to_m_s - band.from_m_s), 0.0, 1.0);
 }
 
-/// Reduces the part of `vector` along `velocity` to the fraction that the speed leaves. A turn has
-/// the speed at the end of an arm of `metres`.
-Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double metres,
+/// Reduces the component of `vector` along `velocity` to the fraction that the speed leaves. The
+/// speed of a turn is that of the end of an arm of `arm_m`; for a displacement, `arm_m` is 1.
+Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double arm_m,
                       const FadeBand& band) {
   const double size = velocity.norm();
-  const double left = left_at(metres * size, band);
+  const double left = left_at(arm_m * size, band);
   if (left >= 1) return vector;
   const Eigen::Vector3d direction = velocity / size;
   return vector - (1 - left) * std::max(0.0, vector.dot(direction)) * direction;
 }
 
-/// The damping force in the same way.
-Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double metres, const FadeBand& band) {
-  const double speed_m_s = metres * velocity.norm();
+/// The force or torque that damps `velocity`, which is as in faded().
+Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double arm_m, const FadeBand& band) {
+  const double speed_m_s = arm_m * velocity.norm();
   const double above_m_s = speed_m_s - band.from_m_s;
   if (!(above_m_s > 0)) return Eigen::Vector3d::Zero();
-  return -metres * metres * band.damping_N_s_m * above_m_s / speed_m_s * velocity;
+  return -arm_m * arm_m * band.damping_N_s_m * above_m_s / speed_m_s * velocity;
 }
 
-/// `vector` with no more along `velocity` than `most` has.
+/// `vector`, whose component along `velocity` is limited to that of `most`.
 Eigen::Vector3d without_excess(const Eigen::Vector3d& vector, const Eigen::Vector3d& most,
                                const Eigen::Vector3d& velocity) {
   const double excess = (vector - most).dot(velocity);
@@ -80,7 +80,7 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   compare_with_force(position_m, now_m_s, dt_s);
   spun_s_ = motion.velocity().angular_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : 0;
   // No grip that nobody holds has more energy than the heaviest at its speed.
-  const double speed_m_s = kSpeedError_m_s + std::max(now_m_s.norm(), then_.linear_m_s.norm());
+  const double speed_m_s = kSpeedError_m_s + std::max(now_m_s.norm(), ahead_.linear_m_s.norm());
   work_J_ = std::clamp(work_J_ + dt_s * acting_N_.dot(now_m_s), 0.0,
                        0.5 * kHeaviestGrip_kg * speed_m_s * speed_m_s);
   seen_m_s_ += now_m_s - last_m_s_;
@@ -99,16 +99,16 @@ void GripBrake::compare_with_force(const Eigen::Vector3d& position_m,
     located_ = true;
   }
   const double fraction = fraction_passed(dt_s, kYieldTime_s);
-  const Eigen::Vector3d way_m = position_m - from_m_;
-  gone_m_ += fraction * (way_m - gone_m_);
+  const Eigen::Vector3d moved_m = position_m - from_m_;
+  gone_m_ += fraction * (moved_m - gone_m_);
   pulled_N_ += fraction * (strings_N_ - pulled_N_);
-  const bool thrown = velocity_m_s.dot(way_m) < 0 && has_stored(way_m);
-  balanced_ = is_balanced(way_m);
+  const bool thrown = velocity_m_s.dot(moved_m) < 0 && has_stored(moved_m);
+  balanced_ = is_balanced(moved_m);
   loose_s_ = has_yielded() || thrown || balanced_ ? kStored_s : loose_s_ - dt_s;
   film_N_ += fraction * (strings_N_ - rest_N_ - film_N_);
   swung_J_ =
       std::max(0.5 * film_N_.dot(gone_m_), (1 - fraction_passed(dt_s, kStored_s)) * swung_J_);
-  // Not by all that pulls: where the strings at rest balance the film, that is nothing.
+  // The film's force, because the total is zero where the strings at rest balance it.
   const double force_N = film_N_.norm();
   if (force_N < kFirmForce_N) return;
   const bool firm = kFirmHand_N_m * film_N_.dot(gone_m_) < force_N * force_N;
@@ -119,37 +119,38 @@ bool GripBrake::is_withstood() const noexcept {
   return withstood_s_ >= kWithstands_s;
 }
 
-/// A grip that is let go still counts as held for as long as its way is short; the energy that it
-/// may have does not wait for that.
+/// A grip that is let go counts as held until it has moved far enough to show that it is not, but
+/// the energy that it may have does not wait for that.
 bool GripBrake::withstands_at(double speed_m_s) const noexcept {
   return is_withstood() && speed_m_s <= kHeavyFrom_m_s;
 }
 
-/// The grip has followed the force for `way_m`, which is further than a hand lets it.
-bool GripBrake::is_loose(const Eigen::Vector3d& way_m) const noexcept {
+/// Whether a grip that has moved by `moved_m` has followed the force further than a hand lets it.
+bool GripBrake::is_loose(const Eigen::Vector3d& moved_m) const noexcept {
   const double force_N = pulled_N_.norm();
   if (!(force_N > kTellingForce_N)) return false;
-  const double along_m = pulled_N_.dot(way_m) / force_N;
+  const double along_m = pulled_N_.dot(moved_m) / force_N;
   return along_m >= kMinYield_m && kLooseHand_N_m * along_m >= force_N;
 }
 
-/// If there was no hand that withstood the force, it has also gone far.
+/// While the whole wrench passes, it must also have gone far, and no hand has withstood a force.
 bool GripBrake::has_yielded() const noexcept {
   if (!is_loose(gone_m_)) return false;
   return fraction_ < 1 || (!is_withstood() && gone_m_.norm() > kThrown_m);
 }
 
-/// Springs store by where the grip is now: at 0.5 m/s the smoothed way is 25 mm behind. To a loose
-/// hand, the strings add what pulls the grip back to their rest.
-bool GripBrake::has_stored(const Eigen::Vector3d& way_m) const noexcept {
-  if (is_withstood() || !is_loose(way_m)) return false;
-  const double twice_J = kLooseHand_N_m * way_m.squaredNorm() - rest_N_.dot(way_m);
+/// What springs store depends on where the grip is: at 0.5 m/s, the smoothed displacement lags by
+/// 25 mm. To what a loose hand stores, the strings add what pulls the grip back to where they rest.
+bool GripBrake::has_stored(const Eigen::Vector3d& moved_m) const noexcept {
+  if (is_withstood() || !is_loose(moved_m)) return false;
+  const double twice_J = kLooseHand_N_m * moved_m.squaredNorm() - rest_N_.dot(moved_m);
   return twice_J > kLooseHand_N_m * kThrown_m * kThrown_m;
 }
 
 /// An unheld grip follows a force that rises slowly to where the strings at rest balance it.
-bool GripBrake::is_balanced(const Eigen::Vector3d& way_m) const noexcept {
-  return !is_withstood() && pulled_N_.norm() <= kTellingForce_N && -rest_N_.dot(way_m) > kThrows_J;
+bool GripBrake::is_balanced(const Eigen::Vector3d& moved_m) const noexcept {
+  return !is_withstood() && pulled_N_.norm() <= kTellingForce_N &&
+         -rest_N_.dot(moved_m) > kThrows_J;
 }
 
 bool GripBrake::yields(const GripMotion& motion) const noexcept {
@@ -172,16 +173,16 @@ bool GripBrake::is_released(const GripMotion& motion) const noexcept {
          seen_m_s_.dot(given_m_s_) >= kAligned * seen_m_s * given_m_s;
 }
 
-/// A grip that nobody holds has the energy that the strings have given it, and gets what those at
-/// rest have stored on its way back: a film may add what is left of kReleased_J.
+/// A grip that nobody holds has the energy that the strings have given it, and is given what the
+/// strings at rest have stored when it swings back: a film may add the rest of kReleased_J.
 FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy =
       std::clamp(std::max((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J),
                           (swung_J_ - kLightSwing_J) / (kHeavySwing_J - kLightSwing_J)),
                  0.0, 1.0);
   const double earlier_m_s = loose_s_ > 0 ? kEarlier_m_s : 0;
-  // A hand moves what is faster than the strings have thrown the lightest grip. A loose hand that
-  // gives back what it has stored does so, too, but holds nothing.
+  // A grip that is faster than the strings could have thrown the lightest one is moved by a hand,
+  // or thrown by a loose hand that gives back what it has stored, but does not hold the grip.
   const double least_m_s = std::max(speed_m_s - kSpeedError_m_s, 1e-3);
   const double thrown = 2 * work_J_ / (kLightestGrip_kg * least_m_s * least_m_s);
   const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
@@ -205,23 +206,23 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   } else {
     fraction_ = std::clamp(fraction_ + (balanced_ ? -dt_s / kEases_s : dt_s / kReturn_s), 0.0, 1.0);
   }
-  then_ = motion.velocity_in(kLoop_s + drive_lag_s_);
+  ahead_ = motion.velocity_in(kLoop_s + drive_lag_s_);
   const double speed_m_s = motion.velocity().linear_m_s.norm();
   band_ = band_at(speed_m_s);
-  damper_ = {damping(then_.linear_m_s, 1, band_), damping(then_.angular_rad_s, radius_m_, band_)};
-  // The strings cannot do both: what a torque takes, the damper of the way misses.
-  left_ = {faded(fraction_ * wanted.force_N, then_.linear_m_s, 1, band_),
-           left_at(then_.linear_m_s.norm(), band_) *
-               faded(fraction_ * wanted.torque_Nm, then_.angular_rad_s, radius_m_, band_)};
-  if (!withstands_at(speed_m_s)) left_.force_N = not_further_out(left_.force_N);
-  if (then_.linear_m_s.norm() > kNoRise_m_s) {
-    left_.force_N = without_excess(left_.force_N, not_risen_N(), then_.linear_m_s);
+  damper_ = {damping(ahead_.linear_m_s, 1, band_), damping(ahead_.angular_rad_s, radius_m_, band_)};
+  // The strings cannot do both: the tension that a torque takes is missing for the linear damper.
+  allowed_ = {faded(fraction_ * wanted.force_N, ahead_.linear_m_s, 1, band_),
+              left_at(ahead_.linear_m_s.norm(), band_) *
+                  faded(fraction_ * wanted.torque_Nm, ahead_.angular_rad_s, radius_m_, band_)};
+  if (!withstands_at(speed_m_s)) allowed_.force_N = not_further_out(allowed_.force_N);
+  if (ahead_.linear_m_s.norm() > kNoRise_m_s) {
+    allowed_.force_N = without_excess(allowed_.force_N, not_risen_N(), ahead_.linear_m_s);
   }
-  return left_;
+  return allowed_;
 }
 
-/// Without what would bring the grip to where the strings at rest store more than kReleased_J: they
-/// pull it home, against which the force goes out.
+/// Reduces a force that points outwards, against the strings at rest, so that it does not bring the
+/// grip to where these store more than kReleased_J.
 Eigen::Vector3d GripBrake::not_further_out(const Eigen::Vector3d& force_N) const noexcept {
   const double out_N = -force_N.dot(rest_N_);
   if (!(out_N > 0)) return force_N;
@@ -232,22 +233,22 @@ Eigen::Vector3d GripBrake::not_further_out(const Eigen::Vector3d& force_N) const
   return force_N + excess_N / rest_N * rest_N_;
 }
 
-/// What the film's part of the strings has at most, so that a force along the motion does not rise.
+/// The limit for a force along the motion that must not rise: the film's present one, if any.
 Eigen::Vector3d GripBrake::not_risen_N() const noexcept {
   const Eigen::Vector3d film_N = strings_N_ - rest_N_;
-  return film_N.dot(then_.linear_m_s) > 0 ? film_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
+  return film_N.dot(ahead_.linear_m_s) > 0 ? film_N : Eigen::Vector3d(Eigen::Vector3d::Zero());
 }
 
 bool GripBrake::acts() const noexcept {
   const double speed_m_s =
-      std::max(then_.linear_m_s.norm(), radius_m_ * then_.angular_rad_s.norm());
-  return resting_s_ > 0 || then_.linear_m_s.norm() > kNoRise_m_s || left_at(speed_m_s, band_) < 1;
+      std::max(ahead_.linear_m_s.norm(), radius_m_ * ahead_.angular_rad_s.norm());
+  return resting_s_ > 0 || ahead_.linear_m_s.norm() > kNoRise_m_s || left_at(speed_m_s, band_) < 1;
 }
 
 Wrench GripBrake::cut(const Wrench& slewed, bool fresh) const noexcept {
-  if (!fresh) return left_at(then_.linear_m_s.norm(), band_) * slewed;
-  return {without_excess(slewed.force_N, left_.force_N, then_.linear_m_s),
-          without_excess(slewed.torque_Nm, left_.torque_Nm, then_.angular_rad_s)};
+  if (!fresh) return left_at(ahead_.linear_m_s.norm(), band_) * slewed;
+  return {without_excess(slewed.force_N, allowed_.force_N, ahead_.linear_m_s),
+          without_excess(slewed.torque_Nm, allowed_.torque_Nm, ahead_.angular_rad_s)};
 }
 
 }  // namespace spidar

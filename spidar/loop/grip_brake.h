@@ -21,28 +21,28 @@ struct FadeBand {
 ///
 /// - A force along the velocity fades out between kFadeFrom_m_s and kFadeTo_m_s, and a torque with
 ///   the speed of the strings' ends. The whole torque also fades out with the speed of the grip,
-///   because the damper needs the strings. Both limits are lower for a grip to which the strings
-///   have given more energy than a light one has at these speeds, because it is heavy or in a hand;
-///   and for a grip in a hand that swings back after a film has bent it. The speed is that of the
-///   time at which the force acts, extrapolated with the present acceleration. Above kNoRise_m_s, a
-///   force along the velocity does not rise.
+///   because the damper needs the strings. Both limits are lower for a grip that is heavy or in a
+///   hand, to which the strings have given more energy than a light one has at these speeds; and
+///   for one in a hand that swings back after a film has pushed it aside. The speed is
+///   extrapolated, with the present acceleration, to the time at which the force acts. Above
+///   kNoRise_m_s, a force along the velocity does not rise.
 /// - A damper acts above the lower speed. Its damping is proportional to the mass, which is twice
 ///   that energy divided by the square of the speed. There is none while the strings have given
-///   less energy than the lightest grip has at its speed: then a hand moves the grip, and must not
+///   less energy than the lightest grip has at this speed: a hand then moves the grip, and must not
 ///   feel the damper.
 /// - The wrench goes to rest when nobody holds the grip: when it is faster than kFastest_m_s, turns
 ///   faster than kFastest_rad_s, or moves as the strings alone would move an unheld grip. After
 ///   kRest_s it returns within kReturn_s, and goes to rest again at a far lower speed if there
 ///   still is no hand.
-/// - It also goes to rest again if the grip yields to the returning force as far as only a loose
-///   hand, or none, lets it. Such a grip follows slowly, so that its speed does not give it away,
+/// - It also goes to rest again if the grip yields to the returning force further than a hand
+///   that holds it lets it. Such a grip follows slowly, so that its speed does not give it away,
 ///   and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g at 2 m/s when a
 ///   film reverses its force. A grip that has followed a force to where the strings at rest balance
 ///   it stores energy, too; its wrench fades out until they store little. Until a hand has
-///   withstood a force, a fast grip that has gone far along the force counts as yielding, too. For
-///   a slow one that has gone as far, and for one that swings back from there, fading and damping
-///   begin kEarlier_m_s below their speeds: what the hand and the strings at rest have stored adds
-///   to a reversed force.
+///   withstood a force, a fast grip that has gone far along the force also counts as yielding. For
+///   a slow grip that has gone as far, and for one that swings back from there, fading and damping
+///   begin at speeds that are lower by kEarlier_m_s, because the energy stored by the hand and the
+///   strings at rest adds to the work of a reversed force.
 /// - Until a hand has withstood a force, and above kHeavyFrom_m_s, the energy that the strings at
 ///   rest have stored is subtracted from kReleased_J, and the speeds are lower accordingly.
 ///   Otherwise a film would push a heavy grip to where no string can brake it, and the strings at
@@ -97,10 +97,10 @@ class GripBrake {
   bool is_released(const GripMotion& motion) const noexcept;
   bool is_withstood() const noexcept;
   bool withstands_at(double speed_m_s) const noexcept;
-  bool is_loose(const Eigen::Vector3d& way_m) const noexcept;
+  bool is_loose(const Eigen::Vector3d& moved_m) const noexcept;
   bool has_yielded() const noexcept;
-  bool has_stored(const Eigen::Vector3d& way_m) const noexcept;
-  bool is_balanced(const Eigen::Vector3d& way_m) const noexcept;
+  bool has_stored(const Eigen::Vector3d& moved_m) const noexcept;
+  bool is_balanced(const Eigen::Vector3d& moved_m) const noexcept;
   bool yields(const GripMotion& motion) const noexcept;
   void compare_with_force(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
                           double dt_s) noexcept;
@@ -126,9 +126,9 @@ class GripBrake {
   double swung_J_ = 0;  ///< what a hand that gave way to the film gives back, fading
   double work_J_ = 0;   ///< what the strings have given the grip since it was last at rest
   // Of the last apply().
-  GripVelocity then_;  ///< at the time when the force acts
+  GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
   FadeBand band_;
-  Wrench left_;
+  Wrench allowed_;
   Wrench damper_;
   bool balanced_ = false;   ///< whether the strings at rest balance the force on the grip
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break

@@ -97,10 +97,10 @@ Wrench WrenchCallback::bounded(const Wrench& wanted, const CallbackInput& input,
                                const touch::ForcePath& path) noexcept {
   constexpr double kAny_J = std::numeric_limits<double>::infinity();
   const Eigen::Vector3d& grip_m = input.pose.position_m;
-  const Eigen::Vector3d way_m = has_position_ ? grip_m - position_m_ : Eigen::Vector3d(0, 0, 0);
+  const Eigen::Vector3d moved_m = has_position_ ? grip_m - position_m_ : Eigen::Vector3d(0, 0, 0);
   position_m_ = grip_m;
   has_position_ = true;
-  budget_.update(way_m, input.velocity.linear_m_s, 0, pushes_ ? kAny_J : 0);
+  budget_.update(moved_m, input.velocity.linear_m_s, 0, pushes_ ? kAny_J : 0);
   Wrench passive;
   passive.force_N = wanted.force_N * budget_.allowed_fraction(wanted.force_N, path, input.dt_s);
   pushes_ = !passive.force_N.isZero(0);

@@ -149,15 +149,15 @@ const Pose& LedHand::advance(const Pose& rest, const std::optional<Eigen::Vector
                              double dt_s) noexcept {
   if (!away_) pose_ = rest;
   if (!away_ && !to_m) return pose_;
-  const Eigen::Vector3d way_m = to_m.value_or(rest.position_m) - pose_.position_m;
+  const Eigen::Vector3d to_go_m = to_m.value_or(rest.position_m) - pose_.position_m;
   const double most_m = kFastest_m_s * dt_s;
-  const double length_m = way_m.norm();
+  const double length_m = to_go_m.norm();
   away_ = to_m || length_m > most_m;
   pose_.orientation = rest.orientation;
   if (length_m > most_m) {
-    pose_.position_m += most_m / length_m * way_m;
+    pose_.position_m += most_m / length_m * to_go_m;
   } else {
-    pose_.position_m += way_m;
+    pose_.position_m += to_go_m;
   }
   return pose_;
 }
