@@ -254,8 +254,8 @@ Vector2d LargestRegion::find(const FlowGrid& flow, double px_of_480_lines) {
   if (evidence.points.size() < 16) return Vector2d::Zero();
   evidence.weights.assign(evidence.points.size(), 1.0);
   evidence.sigma_px = px_of_480_lines;
-  const MotionModel start = fitter_.start(evidence, {MotionModel(), last_});
-  last_ = fitter_.refine(ModelKind::kHomography, start, evidence).value_or(start);
+  const MotionModel start = find_start(evidence, {MotionModel(), last_});
+  last_ = fit_robustly(ModelKind::kHomography, start, evidence).value_or(start);
   rest_px_.assign(flow.known.size(), Vector2d::Zero());
   moves_.assign(flow.known.size(), 0);
   for (size_t i = 0; i < flow.known.size(); ++i) {

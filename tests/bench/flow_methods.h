@@ -64,7 +64,6 @@ class LargestRegion {
   std::vector<size_t> fill(const FlowGrid& flow, size_t seed);
   double median(const std::vector<size_t>& region, Eigen::Index coordinate) const;
 
-  RobustFitter fitter_;
   MotionModel last_;
   std::vector<Eigen::Vector2d> rest_px_;
   std::vector<uint8_t> moves_;

@@ -193,7 +193,7 @@ bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes&
 /// picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
-  const auto model = fitter_.refine(kind, start, evidence_);
+  const auto model = fit_robustly(kind, start, evidence_);
   if (!model) return false;
   if (kind != ModelKind::kStill) ++fitted_;
   scored.model = *model;
@@ -266,7 +266,7 @@ Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   if (votes.cast.size() < kMinVotes) return {MotionModel(), noise_px_, 0, !votes.are_lost};
   weigh(votes);
   known_.assign({MotionModel(), background_.model});
-  const MotionModel start = fitter_.start(evidence_, known_);
+  const MotionModel start = find_start(evidence_, known_);
 
   Scored current;
   if (!score(background_.model.kind, start, votes, current)) {

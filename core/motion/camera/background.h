@@ -126,7 +126,6 @@ class BackgroundEstimator {
   void learn_noise();
 
   WeightedDisplacements evidence_;
-  RobustFitter fitter_;
   std::vector<MotionModel> known_;
   std::vector<double> residuals_px_;
   std::vector<Eigen::Vector2d> positions_px_;  ///< of the votes that agree with a model

@@ -150,9 +150,8 @@ void CameraChoice::add_rival(const Background& chosen, const BackgroundVotes& vo
     evidence_.weights.push_back(vote.weight);
   }
   if (evidence_.points.size() < kMinOfRival) return;
-  const MotionModel start = fitter_.start(evidence_, {});
-  const std::optional<MotionModel> found =
-      fitter_.refine(ModelKind::kTranslation, start, evidence_);
+  const MotionModel start = find_start(evidence_, {});
+  const std::optional<MotionModel> found = fit_robustly(ModelKind::kTranslation, start, evidence_);
   if (!found) return;
   if (chosen.is_known && models_apart_px(*found, chosen.model, votes.size_px) < kRivals_px) return;
   models_.push_back(*found);

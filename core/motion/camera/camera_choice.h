@@ -74,7 +74,6 @@ class CameraChoice {
   /// pictures the plain parts may show what they do not show in one.
   MotionModel likely_;
   BackgroundEstimator estimator_;
-  RobustFitter fitter_;
   WeightedDisplacements evidence_;
   std::vector<MotionModel> models_;  ///< what was found in order, then its rivals
   std::vector<double> shares_;       ///< of the border that each of them explains

@@ -12,128 +12,139 @@
 namespace spidar {
 namespace {
 
-/// Sum of the weights, and weighted means of position and displacement.
-struct Means {
-  double weight = 0;
-  Eigen::Vector2d at_px = Eigen::Vector2d::Zero();
-  Eigen::Vector2d moved_px = Eigen::Vector2d::Zero();
-};
-
-Means means_of(const std::vector<Displacement>& points, const std::vector<double>& weights) {
-  Means means;
-  for (size_t i = 0; i < points.size(); ++i) {
-    means.weight += weights[i];
-    means.at_px += weights[i] * points[i].at_px;
-    means.moved_px += weights[i] * points[i].moved_px;
-  }
-  if (means.weight > 0) {
-    means.at_px /= means.weight;
-    means.moved_px /= means.weight;
-  }
-  return means;
+/// Whether points with this scatter, Σ w q qᵀ about their mean, lie almost on one line: a hundred
+/// times as long as wide.
+bool are_on_a_line(const Eigen::Matrix2d& scatter) {
+  return !(scatter.determinant() > 1e-4 * scatter.trace() * scatter.trace());
 }
 
-/// Relative to the means the shift cancels; the linear part remains.
-bool fit_linear(const std::vector<Displacement>& points, const std::vector<double>& weights,
-                const Means& means, MotionModel& model) {
+/// Least squares of a model up to the affine one. `weight_of(i)` is called once for each point.
+/// The sums are about `about_px`, which should be in their middle.
+template <typename WeightOf>
+std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displacement>& points,
+                                      const Eigen::Vector2d& about_px, WeightOf&& weight_of) {
+  MotionModel model;
+  model.kind = kind;
+  double weight = 0;
+  Eigen::Vector2d at_px = Eigen::Vector2d::Zero(), moved_px = Eigen::Vector2d::Zero();
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  // Σ w q qᵀ
   Eigen::Matrix2d cross = Eigen::Matrix2d::Zero();    // Σ w d qᵀ
   for (size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d q = points[i].at_px - means.at_px;
-    const Eigen::Vector2d d = points[i].moved_px - means.moved_px;
-    scatter += weights[i] * q * q.transpose();
-    cross += weights[i] * d * q.transpose();
+    const double w = weight_of(i);
+    const Eigen::Vector2d q = points[i].at_px - about_px, wq = w * q;
+    weight += w;
+    moved_px += w * points[i].moved_px;
+    if (kind == ModelKind::kTranslation) continue;
+    at_px += wq;
+    scatter += q * wq.transpose();
+    cross += points[i].moved_px * wq.transpose();
   }
+  if (!(weight > 0)) return std::nullopt;
+  at_px /= weight;
+  model.shift_px = moved_px /= weight;
+  if (kind == ModelKind::kTranslation) return model;
+  // Relative to the means the shift cancels; the linear part remains.
+  scatter -= weight * at_px * at_px.transpose();
+  cross -= weight * moved_px * at_px.transpose();
   // All are in one position, but for the rounding of their mean (1e-10 px at 1e4 px from the
   // centre).
   constexpr double kOnePlace_px = 1e-6;
-  if (!(scatter.trace() > means.weight * kOnePlace_px * kOnePlace_px)) return false;
-  if (model.kind == ModelKind::kSimilarity) {
+  if (!(scatter.trace() > weight * kOnePlace_px * kOnePlace_px)) return std::nullopt;
+  if (kind == ModelKind::kSimilarity) {
     const double grow = cross.trace() / scatter.trace();
     const double turn = (cross(1, 0) - cross(0, 1)) / scatter.trace();
     model.linear << grow, -turn, turn, grow;
   } else {
-    // The points lie almost on one line: a hundred times as long as wide.
-    if (!(scatter.determinant() > 1e-4 * scatter.trace() * scatter.trace())) return false;
+    if (are_on_a_line(scatter)) return std::nullopt;
     model.linear = cross * scatter.inverse();
   }
-  model.shift_px = means.moved_px - model.linear * means.at_px;
-  return true;
+  model.shift_px -= model.linear * (about_px + at_px);
+  return model;
 }
 
-/// H s = g for the Gauss–Newton step s of the eight parameters of a homography. In x only the first
-/// three of them act, in y the next three, with the same derivatives `a`, and the last two act in
-/// both, with `p_x` and `p_y`: what is zero, or there already, is not added up.
-struct HomographySums {
-  Eigen::Matrix3d aa = Eigen::Matrix3d::Zero();
-  Eigen::Matrix<double, 2, 3> pa_x = Eigen::Matrix<double, 2, 3>::Zero(), pa_y = pa_x;
-  Eigen::Matrix2d pp = Eigen::Matrix2d::Zero();
-  Eigen::Matrix<double, 8, 1> g = Eigen::Matrix<double, 8, 1>::Zero();
+/// H s = g for the Gauss–Newton step s of the eight parameters of a homography, lengths in
+/// kUnit_px. In x only the first three of them act, in y the next three, with the same derivatives
+/// a = (x, y, 1) / divisor, and the last two act in both, with −to · (x, y) / divisor: what is
+/// zero, or there already, is not added up.
+class HomographySums {
+ public:
+  static constexpr double kUnit_px = 256;  ///< so that the normal matrix is well scaled
 
-  void add(double weight, const Eigen::Vector3d& a, const Eigen::Vector2d& p_x,
-           const Eigen::Vector2d& p_y, const Eigen::Array2d& error) {
-    const Eigen::RowVector3d wa = weight * a.transpose();
-    aa += a * wa;
-    pa_x += p_x * wa;
-    pa_y += p_y * wa;
-    pp += p_x * (weight * p_x.transpose());
-    pp += p_y * (weight * p_y.transpose());
-    g.segment<3>(0) += weight * (error.x() * a);
-    g.segment<3>(3) += weight * (error.y() * a);
-    g.segment<2>(6) += weight * (error.x() * p_x + error.y() * p_y);
+  void add(double weight, const Eigen::Array2d& at_px, double divisor, const Eigen::Array2d& to_px,
+           const Eigen::Array2d& error_px) {
+    const double x = at_px.x() / (kUnit_px * divisor), y = at_px.y() / (kUnit_px * divisor);
+    const double one = 1 / divisor;
+    const double wx = weight * x, wy = weight * y, w = weight * one;
+    const Eigen::Array2d to = to_px / kUnit_px;
+    Products products;
+    products << wx * x, wx * y, wy * y, wx * one, wy * one, w * one;
+    of_both_ += products;
+    of_x_ += to.x() * products;
+    of_y_ += to.y() * products;
+    of_to_ += to.matrix().squaredNorm() * products;
+    const Eigen::Array4d a(wx, wy, w, 0);
+    g_x_ += error_px.x() * a;
+    g_y_ += error_px.y() * a;
+    g_to_ += (error_px * to).sum() * a;
   }
 
-  /// The lower triangle of H.
-  Eigen::Matrix<double, 8, 8> lower() const {
-    Eigen::Matrix<double, 8, 8> H = decltype(H)::Zero();
-    H.block<3, 3>(0, 0) = H.block<3, 3>(3, 3) = aa;
-    H.block<2, 3>(6, 0) = pa_x;
-    H.block<2, 3>(6, 3) = pa_y;
-    H.block<2, 2>(6, 6) = pp;
-    return H;
+  /// s, without its unit; nothing where the points do not determine it.
+  std::optional<Eigen::Matrix<double, 8, 1>> solve() const {
+    const Eigen::Vector2d sum = of_both_.segment<2>(3);
+    const Eigen::Matrix2d squares{{of_both_[0], of_both_[1]}, {of_both_[1], of_both_[2]}};
+    if (are_on_a_line(squares - sum * sum.transpose() / of_both_[5])) return std::nullopt;
+    Eigen::Matrix<double, 8, 8> H = decltype(H)::Zero();  // its lower triangle
+    const auto rows_of = [](const Products& p) {
+      return Eigen::Matrix3d{{p[0], p[1], p[3]}, {p[1], p[2], p[4]}, {p[3], p[4], p[5]}};
+    };
+    H.block<3, 3>(0, 0) = H.block<3, 3>(3, 3) = rows_of(of_both_);
+    H.block<2, 3>(6, 0) = -rows_of(of_x_).topRows<2>();
+    H.block<2, 3>(6, 3) = -rows_of(of_y_).topRows<2>();
+    H.block<2, 2>(6, 6) = rows_of(of_to_).topLeftCorner<2, 2>();
+    const Eigen::LDLT<Eigen::Matrix<double, 8, 8>, Eigen::Lower> ldlt(H);
+    const auto pivots = ldlt.vectorD();
+    if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return std::nullopt;
+    Eigen::Matrix<double, 8, 1> g;
+    g << g_x_.head<3>(), g_y_.head<3>(), -g_to_.head<2>();
+    return ldlt.solve(g).eval();
   }
+
+ private:
+  using Products = Eigen::Array<double, 6, 1>;  ///< w a aᵀ: of x x, x y, y y, x 1, y 1, 1 1
+
+  Products of_both_ = Products::Zero(), of_x_ = of_both_, of_y_ = of_both_, of_to_ = of_both_;
+  Eigen::Array4d g_x_ = Eigen::Array4d::Zero(), g_y_ = g_x_, g_to_ = g_x_;
 };
 
-/// Gauss–Newton steps from the affine solution.
-bool refine_homography(const std::vector<Displacement>& points, const std::vector<double>& weights,
-                       MotionModel& model) {
-  constexpr int kGaussNewtonSteps = 4;
-  constexpr double kSmall = 1e-2;   // px, at kUnit_px from the centre
-  constexpr double kUnit_px = 256;  // lengths near 1, so that the normal matrix is well scaled
-  for (int step = 0; step < kGaussNewtonSteps; ++step) {
-    const double h_x = model.perspective_1_px.x(), h_y = model.perspective_1_px.y();
-    const Eigen::Array2d shift = model.shift_px, column_x = model.linear.col(0),
-                         column_y = model.linear.col(1);
-    HomographySums sums;
-    for (size_t i = 0; i < points.size(); ++i) {
-      if (weights[i] == 0) continue;
-      // MotionModel::displacement_px(), of which the divisor is used again.
-      const double at_x = points[i].at_px.x(), at_y = points[i].at_px.y();
-      const double divisor = 1 + (h_x * at_x + h_y * at_y);
-      // The homography would map points behind the camera.
-      if (!(divisor > 0.1)) return false;
-      const Eigen::Array2d at = points[i].at_px,
-                           moved = at + (shift + (column_x * at_x + column_y * at_y));
-      const Eigen::Array2d to = at + (moved / divisor - at);
-      const Eigen::Array2d error = points[i].moved_px.array() - (to - at);
-      const Eigen::Array2d a = at / kUnit_px / divisor;
-      const Eigen::Array2d p_x = -to.x() / kUnit_px * a, p_y = -to.y() / kUnit_px * a;
-      sums.add(weights[i], {a.x(), a.y(), 1 / divisor}, p_x, p_y, error);
-    }
-    const Eigen::LDLT<Eigen::Matrix<double, 8, 8>, Eigen::Lower> ldlt(sums.lower());
-    const auto pivots = ldlt.vectorD();
-    if (!(pivots.minCoeff() > 1e-10 * pivots.maxCoeff())) return false;
-    const Eigen::Matrix<double, 8, 1> change = ldlt.solve(sums.g);
-    model.linear(0, 0) += change[0] / kUnit_px;
-    model.linear(0, 1) += change[1] / kUnit_px;
-    model.linear(1, 0) += change[3] / kUnit_px;
-    model.linear(1, 1) += change[4] / kUnit_px;
-    model.shift_px += Eigen::Vector2d(change[2], change[5]);
-    model.perspective_1_px += Eigen::Vector2d(change[6], change[7]) / (kUnit_px * kUnit_px);
-    // Each step squares the error in units of kUnit_px: less than 1e-6 px are left, and residuals
-    // of a pixel add less than 1e-4 px.
-    if (change.cwiseAbs().maxCoeff() < kSmall) break;
+/// One Gauss–Newton step. `weight_of(i, e²)` is called once for each point, with the square of what
+/// the model leaves of its displacement. Returns false where the points do not determine it.
+template <typename WeightOf>
+bool step_homography(const std::vector<Displacement>& points, MotionModel& model,
+                     WeightOf&& weight_of) {
+  const double h_x = model.perspective_1_px.x(), h_y = model.perspective_1_px.y();
+  const Eigen::Array2d shift = model.shift_px, column_x = model.linear.col(0),
+                       column_y = model.linear.col(1);
+  HomographySums sums;
+  for (size_t i = 0; i < points.size(); ++i) {
+    // MotionModel::displacement_px(), of which the divisor is used again.
+    const Eigen::Array2d at = points[i].at_px;
+    const double divisor = 1 + (h_x * at.x() + h_y * at.y());
+    const Eigen::Array2d moved = at + (shift + (column_x * at.x() + column_y * at.y()));
+    const Eigen::Array2d to = at + (moved / divisor - at);
+    const Eigen::Array2d error = points[i].moved_px.array() - (to - at);
+    const double weight = weight_of(i, error.matrix().squaredNorm());
+    if (weight == 0) continue;
+    // The homography would map points behind the camera.
+    if (!(divisor > 0.1)) return false;
+    sums.add(weight, at, divisor, to, error);
   }
+  const auto step = sums.solve();
+  if (!step) return false;
+  const Eigen::Matrix<double, 8, 1>& by = *step;
+  constexpr double kUnit_px = HomographySums::kUnit_px;
+  model.linear += Eigen::Matrix2d{{by[0], by[1]}, {by[3], by[4]}} / kUnit_px;
+  model.shift_px += Eigen::Vector2d(by[2], by[5]);
+  model.perspective_1_px += Eigen::Vector2d(by[6], by[7]) / (kUnit_px * kUnit_px);
   return true;
 }
 
@@ -188,34 +199,12 @@ double MotionModel::roll_rad() const {
   return std::atan2((linear(1, 0) - linear(0, 1)) / 2, 1 + growth());
 }
 
-std::optional<MotionModel> fit_model(ModelKind kind, const std::vector<Displacement>& points,
-                                     const std::vector<double>& weights) {
-  MotionModel model;
-  model.kind = kind;
-  if (kind == ModelKind::kStill) return model;
-  const Means means = means_of(points, weights);
-  if (!(means.weight > 0)) return std::nullopt;
-  if (kind == ModelKind::kTranslation) {
-    model.shift_px = means.moved_px;
-    return model;
-  }
-  if (!fit_linear(points, weights, means, model)) return std::nullopt;
-  if (kind == ModelKind::kHomography && !refine_homography(points, weights, model)) {
-    return std::nullopt;
-  }
-  return model;
-}
-
 double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence) {
   return cost_within(evidence.sigma_px, model, evidence, 1e300);
 }
 
-RobustFitter::RobustFitter() {
-  weights_.reserve(kMaxDisplacements);
-}
-
-MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
-                                const std::vector<MotionModel>& known) {
+MotionModel find_start(const WeightedDisplacements& evidence,
+                       const std::vector<MotionModel>& known) {
   MotionModel best;
   double least = 1e300;
   const double far_px = std::max(kFar_px, evidence.sigma_px);
@@ -238,22 +227,37 @@ MotionModel RobustFitter::start(const WeightedDisplacements& evidence,
   return best;
 }
 
-std::optional<MotionModel> RobustFitter::refine(ModelKind kind, const MotionModel& start,
-                                                const WeightedDisplacements& evidence) {
-  std::optional<MotionModel> model = start;
+std::optional<MotionModel> fit_robustly(ModelKind kind, const MotionModel& start,
+                                        const WeightedDisplacements& evidence) {
   if (kind == ModelKind::kStill) return MotionModel();
-  weights_.resize(evidence.points.size());
+  const std::vector<Displacement>& points = evidence.points;
+  double weight = 0;
+  Eigen::Vector2d middle_px = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < points.size(); ++i) {
+    weight += evidence.weights[i];
+    middle_px += evidence.weights[i] * points[i].at_px;
+  }
+  if (!(weight > 0)) return std::nullopt;
+  middle_px /= weight;
+  std::optional<MotionModel> model = start;
   double tolerance_px = 2 * std::max(kFar_px, evidence.sigma_px);
   while (tolerance_px > evidence.sigma_px && model) {
     tolerance_px = std::max(evidence.sigma_px, tolerance_px / 2);
-    const double reach_px = 2 * tolerance_px;
-    for (size_t i = 0; i < weights_.size(); ++i) {
-      const Displacement& point = evidence.points[i];
-      const double e2 = (point.moved_px - model->displacement_px(point.at_px)).squaredNorm();
-      const double w = 1 / (1 + e2 / (reach_px * reach_px));
-      weights_[i] = evidence.weights[i] * w * w;
+    const double of_reach_1_px2 = 1 / (4 * tolerance_px * tolerance_px);
+    const auto weight_of = [&](size_t i, double e2) {
+      const double w = 1 / (1 + e2 * of_reach_1_px2);
+      return evidence.weights[i] * w * w;
+    };
+    if (kind == ModelKind::kHomography) {
+      model->kind = kind;
+      if (!step_homography(points, *model, weight_of)) model.reset();
+      continue;
     }
-    model = fit_model(kind, evidence.points, weights_);
+    const MotionModel last = *model;
+    model = fit_linear(kind, points, middle_px, [&](size_t i) {
+      const Eigen::Vector2d expected_px = last.displacement_px(points[i].at_px);
+      return weight_of(i, (points[i].moved_px - expected_px).squaredNorm());
+    });
   }
   return model;
 }

@@ -12,8 +12,7 @@
 
 namespace spidar {
 
-/// The model hierarchy: each model contains the ones before it, which is how BackgroundEstimator
-/// searches, from one to the next.
+/// The model hierarchy: each model contains the ones before it.
 enum class ModelKind { kStill, kTranslation, kSimilarity, kAffine, kHomography };
 constexpr int kModelKinds = 5;
 
@@ -70,13 +69,6 @@ struct Background {
   bool is_of_few = false;
 };
 
-/// Least squares: minimises Σ w |moved − displacement(at)|², w ≥ 0, one weight for each point.
-/// Returns nothing when the points do not determine the model: too few, in one position, or on one
-/// line. The homography is found by at most four Gauss–Newton steps from the affine solution,
-/// because the perspective between successive frames is small.
-std::optional<MotionModel> fit_model(ModelKind kind, const std::vector<Displacement>& points,
-                                     const std::vector<double>& weights);
-
 /// The displacements to be explained.
 struct WeightedDisplacements {
   std::vector<Displacement> points;
@@ -103,31 +95,24 @@ constexpr double kMaxCost = 4;
 
 inline double point_cost(const MotionModel& model, const Displacement& point, double sigma_px) {
   const double e2 = (point.moved_px - model.displacement_px(point.at_px)).squaredNorm();
-  return std::min(e2 / (sigma_px * sigma_px), kMaxCost);
+  return std::min(kMaxCost, e2 / (sigma_px * sigma_px));
 }
 
 /// Σ w ρ over the points, with ρ = point_cost().
 double robust_cost(const MotionModel& model, const WeightedDisplacements& evidence);
 
-/// Finds models with a small robust_cost() in a bounded number of steps. The same evidence gives
-/// the same model, bit for bit. Allocates nothing for up to kMaxDisplacements points.
-class RobustFitter {
- public:
-  RobustFitter();
+/// A model with a small robust_cost(), found in a bounded number of steps: the best of the
+/// similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000) and the `known`
+/// models, where deviations of several px count as less than outliers: fit_robustly() narrows that.
+/// The same evidence gives the same model, bit for bit.
+MotionModel find_start(const WeightedDisplacements& evidence,
+                       const std::vector<MotionModel>& known);
 
-  /// The best of the similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000)
-  /// and the `known` models, where deviations of several px count as less than outliers: refine()
-  /// narrows that.
-  MotionModel start(const WeightedDisplacements& evidence, const std::vector<MotionModel>& known);
-
-  /// The model of the given kind to which iteratively reweighted least squares converges from
-  /// `start`, with the weights of Geman and McClure, 1 / (1 + e² / 4σ²)². Nothing when the points
-  /// do not determine it.
-  std::optional<MotionModel> refine(ModelKind kind, const MotionModel& start,
-                                    const WeightedDisplacements& evidence);
-
- private:
-  std::vector<double> weights_;
-};
+/// The model of the given kind to which iteratively reweighted least squares converges from
+/// `start`, with the weights of Geman and McClure, 1 / (1 + e² / 4σ²)². Nothing when the points do
+/// not determine it: too few, in one position, or on one line. One Gauss–Newton step to a tolerance
+/// is enough for a homography, because the perspective between successive frames is small.
+std::optional<MotionModel> fit_robustly(ModelKind kind, const MotionModel& start,
+                                        const WeightedDisplacements& evidence);
 
 }  // namespace spidar

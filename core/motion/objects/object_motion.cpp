@@ -58,7 +58,7 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
 /// the same amount so that the choice does not flicker.
 void ObjectMeter::climb(MotionModel& motion) {
   if (motion.kind == ModelKind::kSimilarity) return;
-  const auto similarity = fitter_.refine(ModelKind::kSimilarity, motion, collected_);
+  const auto similarity = fit_robustly(ModelKind::kSimilarity, motion, collected_);
   const double price = 4 * std::log(4 * static_cast<double>(collected_.points.size()));
   if (similarity &&
       robust_cost(*similarity, collected_) + price < robust_cost(motion, collected_)) {
@@ -76,7 +76,7 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   climb(found.model);
   found.points = static_cast<int>(collected_.points.size());
   if (collect_windows(key, found.model, evidence)) {
-    const auto refined = fitter_.refine(found.model.kind, found.model, collected_);
+    const auto refined = fit_robustly(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
     climb(found.model);
     found.points = static_cast<int>(collected_.points.size());

@@ -49,7 +49,6 @@ class ObjectMeter {
   bool collect_windows(uint32_t key, const MotionModel& motion, const ObjectEvidence& evidence);
   void climb(MotionModel& motion);
 
-  RobustFitter fitter_;
   WeightedDisplacements collected_;
 };
 
