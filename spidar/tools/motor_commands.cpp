@@ -134,11 +134,10 @@ int pull(const PullOptions& options) {
   require_strings(board_info(options.device), "pull");
   ChosenDevice chosen = choose_device(options, Motors::kPulled);
   check_pull(options, chosen.profile);
-  if (!options.yes &&
-      !confirm(formatted("Pull string %d of %s with %.2f N for %g s? The grip will move.",
-                         options.string, chosen.device->name().c_str(), options.tension_N,
-                         options.seconds))) {
-    std::cerr << "nothing was pulled\n";
+  if (!may_move(
+          options.device, options.yes,
+          formatted("Pull string %d of %s with %.2f N for %g s? The grip will move.",
+                    options.string, chosen.name().c_str(), options.tension_N, options.seconds))) {
     return kFailed;
   }
   catch_signals();

@@ -64,7 +64,7 @@ TEST(Spidarctl, WrongUsageIsNamed) {
       // Its motors could do 20 N.
       {"pull sim 1 6 0.1 --yes --profile spidar-g6x", "not a number from 0 to 5 N"},
       {"pull sim 1 0.5 0.1 --yes --profile spidar-g6x", "NEWTON: 0.5 N, must be from 1 to 5 N"},
-      {"pull sim 1 1 1 </dev/null", "no terminal to ask for confirmation"},
+      {"pull usb 1 1 1 --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"monitor usb --taut --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"calibrate usb --profile spidar-g6c </dev/null", "no terminal to ask for confirmation"},
       {"selftest sim --newton 5", "not a number from 0.1 to 2 N"},
@@ -104,13 +104,14 @@ TEST(Spidarctl, WhatWasTypedBeforeAQuestionIsReadIsNoAnswer) {
   ASSERT_GE(process, 0);
   if (process == 0) {
     // The shell starts the program when the first line is there.
-    execl("/bin/sh", "sh", "-c", "read line; " SPIDARCTL " pull sim 1 1 0.1", nullptr);
+    execl("/bin/sh", "sh", "-c", "read line; " SPIDARCTL " pull usb 1 1 0.1 --profile spidar-g6c",
+          nullptr);
     _exit(127);
   }
   const std::string_view typed = "\ny\nyes\n";
   const int64_t begin_ns = monotonic_now_ns();
   ASSERT_EQ(write(terminal, typed.data(), typed.size()), static_cast<ssize_t>(typed.size()));
-  expect_contains(read_until(terminal, "[y/N] "), "Pull string 1 of sim");
+  expect_contains(read_until(terminal, "[y/N] "), "Pull string 1 of usb");
   ASSERT_EQ(write(terminal, "y\n", 2), 2);
   const std::string said = read_until(terminal, "[y/N] ");
   // The question has more than ten words, at 300 a minute.
@@ -121,7 +122,7 @@ TEST(Spidarctl, WhatWasTypedBeforeAQuestionIsReadIsNoAnswer) {
   }
   expect_contains(said, "nobody can read that so fast");
   ASSERT_EQ(write(terminal, "n\n", 2), 2);
-  expect_contains(read_until(terminal, "nothing was pulled"), "nothing was pulled");
+  expect_contains(read_until(terminal, "nothing was moved"), "nothing was moved");
   read_until(terminal, "its end");
   int status = 0;
   ASSERT_EQ(waitpid(process, &status, 0), process);
@@ -300,9 +301,9 @@ TEST(Spidarctl, TheFirstPullOfTheGuideSuitsEveryBoard) {
     const std::string board = spidar::load_profile(name).board;
     if (board == "ahs") continue;
     ++tried;
-    // Asked for confirmation, so string, force and time were accepted.
-    expect_contains(run_spidarctl("pull sim 0 2 2 --profile " + name + " </dev/null").text,
-                    "no terminal to ask for confirmation");
+    // Of a longer pull only the time is refused: string and force are right, and 2 s.
+    expect_contains(run_spidarctl("pull sim 0 2 2.6 --profile " + name).text,
+                    "pull for 2.50 s at most");
   }
   EXPECT_GT(tried, 0);
 }
