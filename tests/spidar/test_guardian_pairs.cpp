@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <spawn.h>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -124,23 +126,34 @@ TEST(GuardianPairs, AStickWhosePlayerAndGuardianAreStoppedTogether) {
   clear_bus();
 }
 
-/// The time until a player has noticed that its guardian is stopped, has set the motors to zero,
-/// and has another guardian.
-int64_t replacement_ns(const Victim& victim) {
+/// The time until a player has noticed that its guardian is stopped, and has set the motors to
+/// zero. Nothing if the player, which exchanges without a pause, or this process paused meanwhile.
+/// Returns when the player has another guardian.
+std::optional<int64_t> noticed_ns(const Victim& victim) {
+  constexpr int64_t kPause_ns = 4'000'000;
+  const UsbPort& port = bus().port[0];
   const pid_t first = guardian_process(victim.id());
+  uint64_t exchanges = port.updates;
   const int64_t begin_ns = monotonic_now_ns();
+  int64_t last_ns = begin_ns;
+  bool paused = false;
   kill(first, SIGSTOP);
-  wait_for([&] { return bus().port[0].at_rest(); });
+  wait_for([&] {
+    const int64_t now_ns = monotonic_now_ns();
+    paused = paused || now_ns - last_ns > kPause_ns;
+    const uint64_t newest = port.updates;
+    if (newest != std::exchange(exchanges, newest)) last_ns = now_ns;
+    return port.at_rest();
+  });
   const int64_t passed_ns = monotonic_now_ns() - begin_ns;
   wait_for([&] {
     const pid_t now = guardian_process(victim.id());
     return now != 0 && now != first;
   });
-  return passed_ns;
+  return paused ? std::nullopt : std::optional(passed_ns);
 }
 
-/// On a busy machine, a try may take any time; one that is not disturbed takes a beat, the time for
-/// an answer, and an exchange.
+/// A beat, the time for an answer, and an exchange.
 TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "under a sanitizer, the guardian has ten times as long to answer";
@@ -149,14 +162,17 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
 #endif
   plug(0, "sh4");
   Victim victim("usb", kUsbProfile);
-  int64_t shortest_ns = INT64_MAX;
-  for (int i = 0; i < 20 && shortest_ns > kSecond_ns / 10; ++i) {
+  int seen = 0;
+  for (int i = 0; i < 5; ++i) {
     pulling_board(victim);
-    shortest_ns = std::min(shortest_ns, replacement_ns(victim));
+    if (const auto passed_ns = noticed_ns(victim)) {
+      ++seen;
+      EXPECT_LE(*passed_ns, kSecond_ns / 10);
+    }
   }
-  EXPECT_LE(shortest_ns, kSecond_ns / 10);
   victim.end(SIGKILL);
   clear_bus();
+  if (seen == 0) GTEST_SKIP() << "this machine was busy";
 }
 
 /// A control group of version 2, if this process may make one; it ends with its processes.
@@ -350,10 +366,12 @@ TEST(GuardianPairs, OfAStickThatTakesNoEventEnds) {
   ASSERT_TRUE(victim.lives());
   const pid_t guardian = guardian_process(victim.id());
   ASSERT_NE(guardian, 0);
+  const int gain = port.gain;
+  ASSERT_NE(gain, 0xFFFF);
   port.event_error = EIO;
   victim.end(SIGKILL);
   wait_for([&] { return has_ended(guardian); });
-  EXPECT_NE(port.gain, 0xFFFF);
+  EXPECT_EQ(port.gain, gain);
   wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
   clear_bus();
 }

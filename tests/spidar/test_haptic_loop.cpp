@@ -61,7 +61,7 @@ TEST(HapticLoop, CommandsWhatIsWanted) {
   EXPECT_EQ(record.commanded.force_N.x(), 1);
   EXPECT_EQ(record.device, DeviceState::kRunning);
 
-  // The strings were given what the record says.
+  // The strings get what the record says.
   const StructureMatrix W = structure_matrix(driver.profile.geometry, Pose{});
   EXPECT_LE((W * record.tension_N - record.delivered.stacked()).norm(), 1e-12);
   const MotorVolts expected = to_volts(record.tension_N, driver.profile);
@@ -89,7 +89,7 @@ TEST(HapticLoop, PauseRampsToRest) {
     last = commanded;
   }
   EXPECT_EQ(last.stacked().norm(), 0);
-  // Playing on where it was.
+  // Playing on from there.
   driver.play(5 * kFrame);
   EXPECT_EQ(driver.run(2 * kRamp).commanded.force_N.x(), 1);
 }
@@ -250,7 +250,7 @@ TEST(HapticLoop, LimitsOfZeroAreAPause) {
   EXPECT_EQ(driver.run(kRamp).commanded.stacked().norm(), 0);
 }
 
-// Before, a program that set the limit of a loop itself threw 50 g at 7 m/s.
+// Otherwise, a program that sets the limit of a loop itself throws 50 g at 7 m/s.
 TEST(HapticLoop, NoLimitThrowsAGripThatIsLetGo) {
   SafetyLimits limits;
   limits.max_force_N = 30;
@@ -285,8 +285,8 @@ TEST(HapticLoop, ALimitThatIsLoweredWhileTheDeviceDoesNotAnswer) {
   EXPECT_EQ(driver.last.commanded.stacked().norm(), 0);
 }
 
-// Each answer made up for one tick only: a pause took 74 ms when half of them were missing, and 224
-// ms when nine tenths came 5 ms late.
+// If an answer made up for one tick only, a pause would take 74 ms with half of them missing, and
+// 224 ms with nine tenths that come 5 ms late.
 TEST(HapticLoop, PauseLimitAndEndTakeNoLongerWhenAnswersAreMissingOrLate) {
   const double kEnds_s = std::max(SafetyLimits{}.ramp_s, HapticLoop::kRelease_s);
   for (const int64_t step_ns : {kTick_ns, 5 * kTick_ns}) {

@@ -118,7 +118,7 @@ double thrown_m_s(const Profile& profile, const GripModel& hand, const Push& pus
   return fastest_m_s;
 }
 
-// Before what throws a grip ended at once, 10 N threw 50 g at 3.5 m/s, and 20 N at 5.9 m/s.
+// Unless what throws a grip ends at once, 10 N throw 50 g at 3.5 m/s, and 20 N at 5.9 m/s.
 TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
   const bool all = std::getenv("SPIDAR_SWEEP") != nullptr;
   const std::vector<std::string> names =
@@ -156,8 +156,8 @@ TEST(LetGo, AGripThatAHandLetsGoOfIsNotThrown) {
   std::printf("at most %.1f mJ\n", 1e3 * most_J);
 }
 
-// The damper acted only while a force was wanted: the strings at rest threw 34 g at 1.51 m/s, and
-// 0.62 while a film played.
+// With a damper that acts only while a force is wanted, the strings at rest throw 34 g at 1.51 m/s,
+// and at 0.62 while a film plays.
 TEST(LetGo, WithoutAForceTheStringsAtRestThrowNoFaster) {
   const Profile profile = load_profile("spidar-g6c");
   for (const double mass_kg : {kLightestGrip_kg, kHeaviestGrip_kg}) {
@@ -184,7 +184,7 @@ TEST(LetGo, WithoutAForceTheStringsAtRestThrowNoFaster) {
   }
 }
 
-// At 3 N and a lag of 0.1 s, 34 g got 2.3 m/s.
+// With 3 N and a lag of 0.1 s, 34 g get 2.3 m/s.
 TEST(LetGo, LateDrivesGetLessForce) {
   RandomMotion random(74);
   for (const std::string name : {kDefaultProfile, "spidar-g645"}) {
@@ -200,7 +200,7 @@ TEST(LetGo, LateDrivesGetLessForce) {
   }
 }
 
-// A pause of 20 to 420 ms made 1.77 m/s of 1.0, and 115 mJ of 50.
+// Unless the brake acts in it, a pause of 20 to 420 ms makes 1.77 m/s of 1.0, and 115 mJ of 50.
 TEST(LetGo, NothingThatEndsAForceThrowsAGrip) {
   const bool all = std::getenv("SPIDAR_SWEEP") != nullptr;
   RandomMotion random(73);
@@ -225,8 +225,8 @@ TEST(LetGo, NothingThatEndsAForceThrowsAGrip) {
   std::printf("at most %.1f mJ\n", 1e3 * most_J);
 }
 
-// The strings at rest take the energy of a heavy grip on its way out. While they did not count, the
-// film pushed it on to where no string can brake it, and on the way back it had 57 to 69 mJ.
+// The strings at rest take the energy of a heavy grip on its way out. If it does not count, the
+// film pushes it on to where no string can brake it, and on the way back it has 57 to 69 mJ.
 TEST(LetGo, WhatTheStringsAtRestStoreCounts) {
   const struct {
     const char* profile;
@@ -248,7 +248,7 @@ TEST(LetGo, WhatTheStringsAtRestStoreCounts) {
 }
 
 // A film bends a hand, turns round, and the hand lets go as it swings back, with 37 to 48 mJ that
-// are its own. The force of the film rose along the motion, and made them 64 and 66.
+// are its own. A force that rises along the motion makes them 64 and 66.
 TEST(LetGo, AForceDoesNotRiseAlongTheSwingOfAHand) {
   const struct {
     const char* profile;
@@ -280,8 +280,8 @@ TEST(LetGo, AForceDoesNotRiseAlongTheSwingOfAHand) {
   }
 }
 
-// A torque turns it in 0.14 s until its pose is lost, and the force went on for 20 ms as it was: a
-// search found 87 mJ, here 64.
+// A torque turns it in 0.14 s until its pose is lost. A force that goes on for 20 ms then gives it
+// 64 mJ here, and 87 in the worst case that a search has found.
 TEST(LetGo, AGripThatIsTurnedAwayGetsNoForce) {
   const Profile profile = load_profile("spidar-igarashi001");
   const GripModel hand = held(profile, 0.293, 906);
@@ -292,7 +292,7 @@ TEST(LetGo, AGripThatIsTurnedAwayGetsNoForce) {
   EXPECT_LE(0.5 * 0.293 * speed_m_s * speed_m_s, kReleased_J);
 }
 
-// Half of a thousand times the limit was far above it, and the brake had no effect: 5.9 m/s.
+// A brake that leaves half of a thousand times the limit has no effect: 5.9 m/s.
 TEST(LetGo, AFilmThatWantsMoreThanTheLimitThrowsNoFurther) {
   RandomMotion random(72);
   for (const std::string name : {kDefaultProfile, "spidar-i05"}) {
