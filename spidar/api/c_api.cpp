@@ -145,12 +145,12 @@ bool found(const std::optional<From>& from, To* to) {
 }  // namespace v0
 }  // namespace gst_spidar
 
+using namespace gst_spidar;
+
 GstSpidarDevice* gst_spidar_device_open(const char* name, const char* profile,
                                         GstSpidarError* error) {
-  return gst_spidar::guarded<GstSpidarDevice*>(error, nullptr, [&] {
-    return new GstSpidarDevice{
-        gst_spidar::Device(gst_spidar::text_of(name), gst_spidar::text_of(profile))};
-  });
+  return guarded<GstSpidarDevice*>(
+      error, nullptr, [&] { return new GstSpidarDevice{Device(text_of(name), text_of(profile))}; });
 }
 
 void gst_spidar_device_close(GstSpidarDevice* device) {
@@ -159,9 +159,8 @@ void gst_spidar_device_close(GstSpidarDevice* device) {
 
 bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpidarWrench* wrench,
                             GstSpidarError* error) {
-  return gst_spidar::taken(device, error, "wrench", [&](gst_spidar::Device& open) {
-    return open.push(gst_spidar::same<gst_spidar::Wrench>(*wrench));
-  });
+  return taken(device, error, "wrench",
+               [&](Device& open) { return open.push(same<Wrench>(*wrench)); });
 }
 
 void gst_spidar_device_rest(GstSpidarDevice* device) {
@@ -171,26 +170,24 @@ void gst_spidar_device_rest(GstSpidarDevice* device) {
 bool gst_spidar_device_set_callback(GstSpidarDevice* device, GstSpidarCallback callback,
                                     void* user_data, GstSpidarEnergy energy,
                                     GstSpidarError* error) {
-  return gst_spidar::done(error, [&] {
-    device->device.set_callback(gst_spidar::callback_of(callback, user_data),
-                                gst_spidar::energy_of(energy));
+  return done(error, [&] {
+    device->device.set_callback(callback_of(callback, user_data), energy_of(energy));
   });
 }
 
 size_t gst_spidar_device_callback_error(const GstSpidarDevice* device, char* text, size_t size) {
-  return gst_spidar::write_text(device->device.callback_error(), text, size);
+  return write_text(device->device.callback_error(), text, size);
 }
 
 bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N, double max_torque_Nm,
                                   GstSpidarError* error) {
-  return gst_spidar::done(error, [&] { device->device.set_limits(max_force_N, max_torque_Nm); });
+  return done(error, [&] { device->device.set_limits(max_force_N, max_torque_Nm); });
 }
 
 bool gst_spidar_device_set_surface(GstSpidarDevice* device, const GstSpidarSurface* surface,
                                    GstSpidarError* error) {
-  return gst_spidar::taken(device, error, "surface", [&](gst_spidar::Device& open) {
-    return open.set_surface(gst_spidar::same<gst_spidar::Surface>(*surface));
-  });
+  return taken(device, error, "surface",
+               [&](Device& open) { return open.set_surface(same<Surface>(*surface)); });
 }
 
 void gst_spidar_device_clear_surface(GstSpidarDevice* device) {
@@ -198,11 +195,11 @@ void gst_spidar_device_clear_surface(GstSpidarDevice* device) {
 }
 
 bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose) {
-  return gst_spidar::found(device->device.pose(), pose);
+  return found(device->device.pose(), pose);
 }
 
 bool gst_spidar_device_velocity(const GstSpidarDevice* device, GstSpidarVector3* velocity_m_s) {
-  return gst_spidar::found(device->device.velocity(), velocity_m_s);
+  return found(device->device.velocity(), velocity_m_s);
 }
 
 uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device) {
@@ -218,7 +215,7 @@ double gst_spidar_device_vibration_fraction(const GstSpidarDevice* device) {
 }
 
 void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench) {
-  *wrench = gst_spidar::same<GstSpidarWrench>(device->device.felt());
+  *wrench = same<GstSpidarWrench>(device->device.felt());
 }
 
 GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device) {
@@ -226,22 +223,22 @@ GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device) {
 }
 
 bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device, int64_t timeout_ms) {
-  return gst_spidar::guarded(nullptr, false, [&] {
+  return guarded(nullptr, false, [&] {
     return device->device.wait_until_running(std::chrono::milliseconds(timeout_ms));
   });
 }
 
 size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text, size_t size) {
-  return gst_spidar::write_text(device->device.last_fault(), text, size);
+  return write_text(device->device.last_fault(), text, size);
 }
 
 size_t gst_spidar_device_warning(const GstSpidarDevice* device, char* text, size_t size) {
-  return gst_spidar::write_text(device->device.warning(), text, size);
+  return write_text(device->device.warning(), text, size);
 }
 
 void gst_spidar_device_capabilities(const GstSpidarDevice* device,
                                     GstSpidarCapabilities* capabilities) {
-  *capabilities = gst_spidar::same<GstSpidarCapabilities>(device->device.capabilities());
+  *capabilities = same<GstSpidarCapabilities>(device->device.capabilities());
 }
 
 const char* gst_spidar_device_name(const GstSpidarDevice* device) {
@@ -249,13 +246,11 @@ const char* gst_spidar_device_name(const GstSpidarDevice* device) {
 }
 
 char** gst_spidar_list_devices(GstSpidarError* error) {
-  return gst_spidar::guarded<char**>(
-      error, nullptr, [] { return gst_spidar::list_of(gst_spidar::list_devices()); });
+  return guarded<char**>(error, nullptr, [] { return list_of(list_devices()); });
 }
 
 char** gst_spidar_list_profiles(GstSpidarError* error) {
-  return gst_spidar::guarded<char**>(
-      error, nullptr, [] { return gst_spidar::list_of(gst_spidar::list_profiles()); });
+  return guarded<char**>(error, nullptr, [] { return list_of(list_profiles()); });
 }
 
 void gst_spidar_free_list(char** list) {
@@ -263,7 +258,7 @@ void gst_spidar_free_list(char** list) {
 }
 
 GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error) {
-  return gst_spidar::guarded<GstSpidarMotion*>(error, nullptr, [] { return new GstSpidarMotion; });
+  return guarded<GstSpidarMotion*>(error, nullptr, [] { return new GstSpidarMotion; });
 }
 
 void gst_spidar_motion_free(GstSpidarMotion* motion) {
@@ -273,9 +268,9 @@ void gst_spidar_motion_free(GstSpidarMotion* motion) {
 bool gst_spidar_motion_analyze(GstSpidarMotion* motion, const GstSpidarPicture* picture,
                                int64_t time_ns, GstSpidarMotionResult* result,
                                GstSpidarError* error) {
-  return gst_spidar::done(error, [&] {
-    *result = gst_spidar::same<GstSpidarMotionResult>(motion->motion.analyze(
-        gst_spidar::same<gst_spidar::GreyPicture>(*picture), std::chrono::nanoseconds(time_ns)));
+  return done(error, [&] {
+    *result = same<GstSpidarMotionResult>(
+        motion->motion.analyze(same<GreyPicture>(*picture), std::chrono::nanoseconds(time_ns)));
   });
 }
 
@@ -284,12 +279,10 @@ void gst_spidar_motion_reset(GstSpidarMotion* motion) {
 }
 
 void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings) {
-  *settings = gst_spidar::same<GstSpidarMotionSettings>(gst_spidar::MotionSettings{});
+  *settings = same<GstSpidarMotionSettings>(MotionSettings{});
 }
 
 bool gst_spidar_motion_configure(GstSpidarMotion* motion, const GstSpidarMotionSettings* settings,
                                  GstSpidarError* error) {
-  return gst_spidar::done(error, [&] {
-    motion->motion.configure(gst_spidar::same<gst_spidar::MotionSettings>(*settings));
-  });
+  return done(error, [&] { motion->motion.configure(same<MotionSettings>(*settings)); });
 }

@@ -214,9 +214,11 @@ std::string Device::callback_error() const {
       return std::string("the callback has thrown an exception: ") + callback.thrown();
     case spidar::WrenchCallback::State::kTooSlow:
       return "the callback has taken longer than 0.5 ms twenty times in a row";
-    default:
-      return {};
+    case spidar::WrenchCallback::State::kNone:
+    case spidar::WrenchCallback::State::kRuns:
+      break;
   }
+  return {};
 }
 
 void Device::set_limits(double max_force_N, double max_torque_Nm) {
@@ -284,9 +286,12 @@ DeviceState Device::state() const {
       return DeviceState::kIdle;
     case spidar::DeviceState::kRunning:
       return DeviceState::kRunning;
-    default:  // before the first tick; the device does not close while this object lives
-      return DeviceState::kOpening;
+    case spidar::DeviceState::kOpening:
+    case spidar::DeviceState::kClosed:   // before the first tick
+    case spidar::DeviceState::kClosing:  // not while this object lives
+      break;
   }
+  return DeviceState::kOpening;
 }
 
 bool Device::wait_until_running(std::chrono::milliseconds timeout) const {

@@ -23,10 +23,14 @@ TEST(NoForceReason, EachHasANickOfItsOwnAndASentence) {
   for (size_t i = 0; i < kNoForceReasons; ++i) {
     const auto limit = static_cast<NoForceReason>(i);
     EXPECT_TRUE(nicks.insert(nick(limit)).second) << nick(limit);
+    EXPECT_EQ(no_force_reason(nick(limit)), limit) << nick(limit);
     if (limit == NoForceReason::kNone) continue;
     EXPECT_EQ(sentence(limit)[std::strlen(sentence(limit)) - 1], '.') << nick(limit);
   }
   EXPECT_STREQ(sentence(NoForceReason::kNone), "");
+  EXPECT_STREQ(nick(NoForceReason::kVibration), "vibration");
+  EXPECT_STREQ(nick(NoForceReason::kSilentTrack), "silent-track");
+  EXPECT_STREQ(nick(NoForceReason::kNoDevice), "no-device");
   EXPECT_EQ(nicks.count("unknown"), 0u);
 }
 
