@@ -93,7 +93,7 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   }
   take(step);
   const bool is_compared =
-      tracked ? find_mean(*tracked) : motion_.estimate(image, reduced_, frame_);
+      tracked ? find_mean(*tracked) : motion_.estimate(image, reduced_, frame_, frame_.felt_object);
   if (is_comparable && is_compared) {
     frame_.picture = likeness;
   } else {

@@ -46,7 +46,7 @@ void MotionEstimator::report_points(const FieldPosition& position,
 }
 
 bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
-                               MeasuredFrame& frame) {
+                               MeasuredFrame& frame, uint32_t felt) {
   if (reduced.picture() == Likeness::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
@@ -68,7 +68,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
   const FieldInFrame in_frame{field_, position.scale, position.centre_px - middle_px, interval_s,
                               fine};
-  const std::vector<MovingObject>& objects = objects_.update(in_frame, background);
+  const std::vector<MovingObject>& objects = objects_.update(in_frame, background, felt);
   camera_.learn_noise([this](size_t block) { return objects_.moves(block); });
   frame.objects = objects;
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);

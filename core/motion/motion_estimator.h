@@ -23,8 +23,10 @@ class MotionEstimator {
  public:
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
   /// `interval_ns` > 0 is the time since the previous one. Returns false when there is nothing to
-  /// compare with: the first picture, another size, or a cut.
-  bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame);
+  /// compare with: the first picture, another size, or a cut. `felt` is the object that was felt
+  /// before; 0: none.
+  bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame,
+                uint32_t felt = 0);
 
   /// After a cut or a seek: the next frame is not compared with the previous one.
   void reset();

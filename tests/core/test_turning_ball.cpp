@@ -2,8 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Roll and growth of balls that turn, grow, or do neither, from what the pixels determine of them.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -69,6 +71,31 @@ TEST(TurningBall, OfOneGreyLevelGrowsAndDoesNotTurn) {
   }
   EXPECT_LE(most_rad_s, 0.25 * 1.0);  // a quarter of how it does turn
   EXPECT_GT(least_1_s, 0.7);
+}
+
+/// One is felt, and the others are measured by turns: each in every third frame.
+TEST(TurningBall, AmongFourIsKnownLikeTheOneThatIsFelt) {
+  constexpr std::array<double, 4> kTurns_rad = {0.03, -0.03, 0.02, -0.02};
+  MovingScene scene(640, 360);
+  for (size_t k = 0; k < kTurns_rad.size(); ++k) scene.add_disc(36);
+  MotionAnalyzer analyzer;
+  const Frame* frame = nullptr;
+  for (int n = 0; n < 24; ++n) {
+    std::vector<Placement> discs;
+    for (size_t k = 0; k < kTurns_rad.size(); ++k) {
+      discs.push_back({{-240.0 + 140 * static_cast<double>(k) + 3 * n, 0}, 1, kTurns_rad[k] * n});
+    }
+    frame = &analyzer.analyze(scene.draw({}, discs), n * 40'000'000LL);
+  }
+  std::vector<MovingObject> objects = frame->objects;
+  ASSERT_EQ(objects.size(), kTurns_rad.size());
+  std::sort(objects.begin(), objects.end(), [](const MovingObject& a, const MovingObject& b) {
+    return a.position_px.x() < b.position_px.x();
+  });
+  for (size_t k = 0; k < objects.size(); ++k) {
+    const double true_rad_s = kTurns_rad[k] / 0.04;
+    EXPECT_NEAR(objects[k].roll_rad_s, true_rad_s, 0.25 * std::abs(true_rad_s)) << k;
+  }
 }
 
 TEST(SteadyRate, ComesInAboveItsErrorAndFadesWithoutEvidence) {

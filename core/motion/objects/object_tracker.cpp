@@ -170,9 +170,26 @@ ObjectMotion ObjectTracker::measure(ObjectLife& life, const FieldInFrame& frame)
   return found;
 }
 
+/// After the object that was turned to last, the next one that may be felt follows: keys rise.
+void ObjectTracker::choose_turned(uint32_t felt) {
+  felt_key_ = 0;
+  uint32_t first = 0, next = 0;
+  for (const ObjectLife& life : lives_) {
+    if (!life.is_seen() || !life.is_born() || life.is_layer) continue;
+    if (felt != 0 && life.object.id == felt) {
+      felt_key_ = life.key;
+      continue;
+    }
+    if (first == 0) first = life.key;
+    if (next == 0 && life.key > turned_key_) next = life.key;
+  }
+  turned_key_ = next != 0 ? next : first;
+}
+
 /// How it turns and grows, unless it is not felt: what is not born yet, and layers of the scene.
 void ObjectTracker::turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame) {
   if (!life.is_born() || life.is_layer) return life.turn_unseen(frame.interval_s);
+  if (life.key != felt_key_ && life.key != turned_key_) return;
   const Turn as_before{life.roll.expected(frame.interval_s),
                        life.growth.expected(frame.interval_s)};
   const Turn turn = turns_.measure(life.key, life.region, found, as_before, evidence_in(frame));
@@ -278,7 +295,8 @@ void ObjectTracker::miss(ObjectLife& life, const FieldInFrame& frame) {
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,
-                                                       const Background& background) {
+                                                       const Background& background,
+                                                       uint32_t felt) {
   const BlockField& field = frame.field;
   const size_t n = field.blocks().size();
   if (owners_.size() != n) owners_.assign(n, 0);
@@ -305,6 +323,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     const int16_t label = finder_.labels()[i];
     owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
   }
+  choose_turned(felt);
   for (ObjectLife& life : lives_) {
     if (life.is_seen()) {
       observe(life, frame);

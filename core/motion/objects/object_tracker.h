@@ -174,7 +174,12 @@ class ObjectTracker {
   /// The result is valid until the next call and ordered by id. Ids count the objects that were in
   /// a result, so that their number identifies the next one. `background` is in pixels of the
   /// field's picture.
-  const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background);
+  ///
+  /// How an object turns and grows is measured in each frame for the one that is `felt`, an id or
+  /// 0, and for one of the others, by turns: what is known of the rest of them stays. This bounds
+  /// the time for a frame.
+  const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background,
+                                          uint32_t felt = 0);
 
   /// What the next frame's votes on the camera depend on.
   PreviousFrame past() const {
@@ -213,6 +218,7 @@ class ObjectTracker {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
   ObjectMotion measure(ObjectLife& life, const FieldInFrame& frame);
+  void choose_turned(uint32_t felt);
   void turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame);
   void position(ObjectLife& life, const FieldInFrame& frame) const;
   double noise_around(const ObjectLife& life);
@@ -234,6 +240,7 @@ class ObjectTracker {
   Parallax parallax_;
   std::vector<ObjectLife> lives_;
   std::vector<MovingObject> objects_;
+  uint32_t felt_key_ = 0, turned_key_ = 0;  ///< of which the turn is measured; 0: none
   uint32_t next_key_ = 1;
   uint32_t next_id_ = 1;
 };

@@ -99,13 +99,19 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
   return A;
 }
 
-/// Leaves at most `most` of the values, evenly.
+/// Leaves at most `most` of the values, evenly: those at which multiples of the golden ratio, which
+/// fill an interval evenly and are in step with nothing, have passed the next whole number of
+/// shares. Every n-th pixel of rows would be in step with what is as wide as n, and with the rows.
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
-  const size_t every = (values.size() + most - 1) / most;
-  if (every <= 1) return;
+  if (values.size() <= most) return;
+  constexpr double kGolden = 0.6180339887498949;
+  const double share = static_cast<double>(most) / static_cast<double>(values.size());
   size_t kept = 0;
-  for (size_t i = 0; i < values.size(); i += every) values[kept++] = values[i];
+  for (size_t i = 0; i < values.size() && kept < most; ++i) {
+    const double at = kGolden * static_cast<double>(i);
+    if (at - std::floor(at) < share) values[kept++] = values[i];
+  }
   values.resize(kept);
 }
 

@@ -46,10 +46,9 @@ class TurnMeter {
   Turn measure(uint32_t key, const Region& region, const ObjectMotion& found, const Turn& as_before,
                const ObjectEvidence& evidence);
 
-  /// Limits that bound the time for a frame: of more blocks or pixels, every second one is used,
-  /// and so on.
+  /// Limits that bound the time for a frame: of more blocks or pixels, some are used, evenly.
   static constexpr size_t kMaxBlocks = 32;
-  static constexpr size_t kMaxPixels = 1024;
+  static constexpr size_t kMaxPixels = 512;
 
  private:
   /// A pixel with a slope.
