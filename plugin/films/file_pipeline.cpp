@@ -27,7 +27,7 @@ void note_missing(GstMessage* message, std::string& missing) {
 
 /// Of an error; `missing` is the plug-in that GStreamer does not name in it.
 std::string text_of(GstMessage* message, const std::string& missing = "") {
-  GError* error = nullptr;
+  g_autoptr(GError) error = nullptr;
   gst_message_parse_error(message, &error, nullptr);
   std::string text = error->message;
   const bool is_missing =
@@ -37,7 +37,6 @@ std::string text_of(GstMessage* message, const std::string& missing = "") {
   if (g_error_matches(error, GST_STREAM_ERROR, GST_STREAM_ERROR_TYPE_NOT_FOUND)) {
     text = "it is damaged, or of a format that GStreamer does not know";
   }
-  g_error_free(error);
   return text;
 }
 
@@ -52,13 +51,9 @@ FilePipeline::FilePipeline(const std::string& line, const std::string& path,
   if (!std::filesystem::is_regular_file(status)) {
     throw std::runtime_error("it is not a regular file");
   }
-  GError* error = nullptr;
+  g_autoptr(GError) error = nullptr;
   pipeline_.reset(gst_parse_launch(line.c_str(), &error));
-  if (error) {
-    const std::string reason = error->message;
-    g_error_free(error);
-    throw std::runtime_error(reason);
-  }
+  if (error) throw std::runtime_error(error->message);
   note_read(path);
   GstElement* const source = find("source");
   g_object_set(source, "location", path.c_str(), nullptr);
@@ -162,11 +157,14 @@ GstMessageType FilePipeline::play_until(GstMessageType awaited, GstClockTime lim
   return GST_MESSAGE_UNKNOWN;
 }
 
+bool seek_before(GstElement* sink, int64_t time_ns) {
+  constexpr auto kFlags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
+                                                    GST_SEEK_FLAG_SNAP_BEFORE);
+  return gst_element_seek_simple(sink, GST_FORMAT_TIME, kFlags, time_ns) != FALSE;
+}
+
 std::string seconds_text(int64_t ns) {
-  gchar* const text = g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns));
-  std::string result = text;
-  g_free(text);
-  return result;
+  return taken(g_strdup_printf("%.3f s", 1e-9 * static_cast<double>(ns)));
 }
 
 }  // namespace spidar

@@ -74,6 +74,9 @@ class FilePipeline {
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
 
+/// Goes to the key frame before a time. Returns whether that is possible.
+bool seek_before(GstElement* sink, int64_t time_ns);
+
 /// The time as text, such as "1.250 s".
 std::string seconds_text(int64_t ns);
 

@@ -89,11 +89,8 @@ std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& f
     while (unit.second > 0 && unit.first[unit.second - 1] == 0) --unit.second;
   }
   const size_t hashed = unit.second == 0 ? 0 : floor_to_power(unit.second);
-  gchar* const digits =
-      g_compute_checksum_for_data(G_CHECKSUM_SHA1, unit.first + unit.second - hashed, hashed);
-  std::string hash(digits, kDigits);
-  g_free(digits);
-  return hash;
+  const uint8_t* const from = unit.first + unit.second - hashed;
+  return taken(g_compute_checksum_for_data(G_CHECKSUM_SHA1, from, hashed)).substr(0, kDigits);
 }
 
 FilmFingerprint fingerprint_of(const std::vector<FilmPacket>& packets) {
@@ -182,12 +179,7 @@ class FilmReader {
       part_ = Part::kEnd;
       bytes_ = 0;
     }
-    GstEvent* seek =
-        gst_event_new_seek(1, GST_FORMAT_TIME,
-                           static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
-                                                     GST_SEEK_FLAG_SNAP_BEFORE),
-                           GST_SEEK_TYPE_SET, time_ns, GST_SEEK_TYPE_NONE, 0);
-    if (!gst_element_send_event(sink_, seek)) return false;
+    if (!seek_before(sink_, time_ns)) return false;
     const bool ended = file_.play_until(GST_MESSAGE_APPLICATION, kLongestSearch) == GST_MESSAGE_EOS;
     const std::lock_guard<std::mutex> lock(mutex_);
     return ended && bytes_ > 0;

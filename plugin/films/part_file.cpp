@@ -22,6 +22,7 @@
 
 #include <glib.h>
 
+#include "plugin/gobject/ref.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/whole_file.h"
 
@@ -141,9 +142,8 @@ int make_locked(const std::string& path, const fs::path& target) {
 /// The same in every process and on every machine.
 std::string part_path(const fs::path& place) {
   const std::string name = place.filename().string();
-  gchar* const hash = g_compute_checksum_for_string(G_CHECKSUM_SHA1, name.c_str(), -1);
-  const std::string part = ".part-" + std::string(hash, 16) + place.extension().string();
-  g_free(hash);
+  const std::string hash = taken(g_compute_checksum_for_string(G_CHECKSUM_SHA1, name.c_str(), -1));
+  const std::string part = ".part-" + hash.substr(0, 16) + place.extension().string();
   return (place.parent_path() / part).string();
 }
 

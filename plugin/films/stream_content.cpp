@@ -104,42 +104,29 @@ bool is_picture(const GstCaps* caps) {
 }
 
 std::string why_missing(GstElement* bin) {
-  bool is_mp4 = false;
-  GstIterator* elements = gst_bin_iterate_recurse(GST_BIN(bin));
-  GValue item = G_VALUE_INIT;
-  while (gst_iterator_next(elements, &item) == GST_ITERATOR_OK) {
-    GstElementFactory* const factory =
-        gst_element_get_factory(GST_ELEMENT(g_value_get_object(&item)));
-    is_mp4 = is_mp4 || (factory && g_strcmp0(GST_OBJECT_NAME(factory), "qtdemux") == 0);
-    g_value_reset(&item);
-  }
-  g_value_unset(&item);
-  gst_iterator_free(elements);
-  if (!is_mp4) return {};
+  g_autoptr(GstIterator) demuxers =
+      gst_bin_iterate_all_by_element_factory_name(GST_BIN(bin), "qtdemux");
+  g_auto(GValue) demuxer = G_VALUE_INIT;
+  if (gst_iterator_next(demuxers, &demuxer) != GST_ITERATOR_OK) return {};
   return " (GStreamer leaves out what is shorter than a fifth of an MP4 or MOV film; in a copy "
          "made "
          "by ffmpeg -i FILM -c copy FILM.mkv it is there)";
 }
 
 GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer) {
-  GstEvent* const event = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
+  const Ref<GstEvent> event(gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0));
   if (!event) return GST_CLOCK_TIME_NONE;
   const GstSegment* segment = nullptr;
-  gst_event_parse_segment(event, &segment);
-  const GstClockTime time = stream_time_of(*segment, GST_BUFFER_PTS(buffer));
-  gst_event_unref(event);
-  return time;
+  gst_event_parse_segment(event.get(), &segment);
+  return stream_time_of(*segment, GST_BUFFER_PTS(buffer));
 }
 
 GstCaps* caps_of(GstPad* pad) {
   GstCaps* caps = gst_pad_get_current_caps(pad);
   // Caps reach the pad of a parsebin with the first data, but its parser has them earlier.
-  GstPad* target =
-      !caps && GST_IS_GHOST_PAD(pad) ? gst_ghost_pad_get_target(GST_GHOST_PAD(pad)) : nullptr;
-  if (target) {
-    caps = gst_pad_get_current_caps(target);
-    gst_object_unref(target);
-  }
+  const Ref<GstPad> target(
+      !caps && GST_IS_GHOST_PAD(pad) ? gst_ghost_pad_get_target(GST_GHOST_PAD(pad)) : nullptr);
+  if (target) caps = gst_pad_get_current_caps(target.get());
   return caps ? caps : gst_pad_query_caps(pad, nullptr);
 }
 

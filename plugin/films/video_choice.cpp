@@ -3,22 +3,21 @@
 #include "plugin/films/video_choice.h"
 
 #include "plugin/films/stream_content.h"
+#include "plugin/gobject/ref.h"
 
 namespace spidar {
 namespace {
 
 std::string id_of(GstPad* pad) {
-  g_autofree gchar* id = gst_pad_get_stream_id(pad);
-  return id ? id : "";
+  return taken(gst_pad_get_stream_id(pad));
 }
 
 /// 1 if the film marks the stream as its own, −1 if it says that it is not, else 0.
 int mark_of(GstPad* pad) {
-  GstEvent* const start = gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0);
+  const Ref<GstEvent> start(gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0));
   if (!start) return 0;
   auto flags = GST_STREAM_FLAG_NONE;
-  gst_event_parse_stream_flags(start, &flags);
-  gst_event_unref(start);
+  gst_event_parse_stream_flags(start.get(), &flags);
   if ((flags & GST_STREAM_FLAG_SELECT) != 0) return 1;
   return (flags & GST_STREAM_FLAG_UNSELECT) != 0 ? -1 : 0;
 }

@@ -99,10 +99,9 @@ void BusWarnings::check_frame(const FrameReport& report) {
   const guint bit = 1u << static_cast<guint>(report.fault);
   if (!words.warning || (frame_faults_ & bit)) return;
   frame_faults_ |= bit;
-  gchar* const warning =
-      g_strdup_printf(words.warning, FrameLuma::kSmallestSide, FrameLuma::kLargestSide);
-  GST_ELEMENT_WARNING(element_, STREAM, FORMAT, ("%s", warning), ("%s", words.advice));
-  g_free(warning);
+  GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
+                      (words.warning, FrameLuma::kSmallestSide, FrameLuma::kLargestSide),
+                      ("%s", words.advice));
 }
 
 void BusWarnings::check_touch(const HapticOutput& output, const FrameReport& report,

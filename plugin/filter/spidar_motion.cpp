@@ -159,7 +159,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
     GST_DEBUG_OBJECT(self, "paused: force ramps to rest");
     state.feed.output.follower().set_playing(false);
   } else if (transition == GST_STATE_CHANGE_PAUSED_TO_READY) {
-    state.track.loader.interrupt();
+    state.track.loader.set_interrupted(true);
   }
 
   const GstStateChangeReturn result =

@@ -9,7 +9,7 @@
 
 #include "plugin/filter/analysis_permit.h"
 #include "plugin/filter/motion_state.h"
-#include "plugin/frame/motion_message.h"
+#include "plugin/frame/frame_fields.h"
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/timing/frame_pacer.h"
 #include "plugin/tracks/sidecar.h"
@@ -170,14 +170,14 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
   switch (GST_EVENT_TYPE(event)) {
     case GST_EVENT_FLUSH_START:
       GST_DEBUG_OBJECT(self, "flush: scheduled wrenches are cancelled");
-      state.track.loader.interrupt();
+      state.track.loader.set_interrupted(true);
       state.feed.clear();
       break;
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
-      state.track.loader.resume();
+      state.track.loader.set_interrupted(false);
       // Flushes again, because a frame may have been in progress when the flush began.
       state.feed.clear();
       state.reset();

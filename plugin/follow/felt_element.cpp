@@ -21,13 +21,11 @@ void tell(const std::string& text) {
 }
 
 GstElement* parse_pipeline(const std::string& line) {
-  GError* error = nullptr;
+  g_autoptr(GError) error = nullptr;
   GstElement* pipeline = gst_parse_launch(line.c_str(), &error);
   if (!error) return pipeline;
-  const std::string what = error->message;
-  g_clear_error(&error);
   gst_clear_object(&pipeline);
-  throw std::runtime_error(what);
+  throw std::runtime_error(error->message);
 }
 
 const char* value_of(const std::vector<std::string>& properties, const std::string& name) {
@@ -71,7 +69,7 @@ std::string set_properties(GstElement* felt, const std::vector<std::string>& pro
 }
 
 std::string text_for_people(GstMessage* message) {
-  GError* error = nullptr;
+  g_autoptr(GError) error = nullptr;
   switch (GST_MESSAGE_TYPE(message)) {
     case GST_MESSAGE_ERROR:
       gst_message_parse_error(message, &error, nullptr);
@@ -88,9 +86,7 @@ std::string text_for_people(GstMessage* message) {
       return std::string("not installed for GStreamer: ") + what +
              "; Debian has most decoders in gstreamer1.0-libav";
   }
-  const std::string text = error->message;
-  g_clear_error(&error);
-  return text;
+  return error->message;
 }
 
 std::optional<bool> says_simulated(GstMessage* message) {

@@ -425,10 +425,9 @@ Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
   const auto take = [](GObject*, GAsyncResult* result, gpointer user) {
     const std::unique_ptr<std::shared_ptr<Call>> own(static_cast<std::shared_ptr<Call>*>(user));
     Call& answered = **own;
-    GError* failed = nullptr;
+    g_autoptr(GError) failed = nullptr;
     answered.bus.reset(g_bus_get_finish(result, &failed));
     if (failed) answered.error = failed->message;
-    g_clear_error(&failed);
     if (answered.is_waited_for) g_main_loop_quit(answered.loop);
   };
   constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that is started for this needs a moment

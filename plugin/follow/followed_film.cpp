@@ -171,11 +171,10 @@ bool FollowedFilm::check() {
 
 void FollowedFilm::read_segment() {
   const Ref<GstPad> pad(gst_element_get_static_pad(sink_, "sink"));
-  GstEvent* const event = gst_pad_get_sticky_event(pad.get(), GST_EVENT_SEGMENT, 0);
+  const Ref<GstEvent> event(gst_pad_get_sticky_event(pad.get(), GST_EVENT_SEGMENT, 0));
   if (!event) return;
   GstSegment segment;
-  gst_event_copy_segment(event, &segment);
-  gst_event_unref(event);
+  gst_event_copy_segment(event.get(), &segment);
   const guint64 stream = gst_segment_to_stream_time(&segment, GST_FORMAT_TIME, segment.start);
   const guint64 running = gst_segment_to_running_time(&segment, GST_FORMAT_TIME, segment.start);
   begin_position_ns_ = static_cast<int64_t>(stream);

@@ -30,16 +30,15 @@ struct Answer {
 };
 
 Answer finish(GObject* bus, GAsyncResult* result) {
-  GError* found = nullptr;
+  g_autoptr(GError) error = nullptr;
   Answer answer;
-  answer.reply.reset(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &found));
-  const std::unique_ptr<GError, void (*)(GError*)> error(found, g_error_free);
+  answer.reply.reset(g_dbus_connection_call_finish(G_DBUS_CONNECTION(bus), result, &error));
   if (!error) return answer;
-  answer.is_cancelled = g_error_matches(found, G_IO_ERROR, G_IO_ERROR_CANCELLED);
-  answer.is_gone = g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NAME_HAS_NO_OWNER) ||
-                   g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_SERVICE_UNKNOWN);
-  answer.is_refused = !answer.is_gone && g_dbus_error_is_remote_error(found) &&
-                      !g_error_matches(found, G_DBUS_ERROR, G_DBUS_ERROR_NO_REPLY);
+  answer.is_cancelled = g_error_matches(error, G_IO_ERROR, G_IO_ERROR_CANCELLED);
+  answer.is_gone = g_error_matches(error, G_DBUS_ERROR, G_DBUS_ERROR_NAME_HAS_NO_OWNER) ||
+                   g_error_matches(error, G_DBUS_ERROR, G_DBUS_ERROR_SERVICE_UNKNOWN);
+  answer.is_refused = !answer.is_gone && g_dbus_error_is_remote_error(error) &&
+                      !g_error_matches(error, G_DBUS_ERROR, G_DBUS_ERROR_NO_REPLY);
   return answer;
 }
 

@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include <gst/gst.h>
+
 #include "core/fields.h"
 #include "plugin/frame/frame_report.h"
 #include "plugin/reasons/no_force.h"
@@ -30,5 +32,9 @@ void no_force_fields(NoForceReason film, NoForceReason device, FieldSink& to);
 // Of JSON only.
 void background_fields(const Background& background, FieldSink& to);
 void object_fields(const MovingObject& object, FieldSink& to);
+
+/// Posts `spidar-motion` with the fields of frame_fields(); see post_counted().
+void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
+                         const FrameReport& report, gint* unread);
 
 }  // namespace spidar

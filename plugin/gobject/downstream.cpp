@@ -31,16 +31,14 @@ class Search {
 
  private:
   bool is_passed_to(GstPad* pad) {
-    GstIterator* links = gst_pad_iterate_internal_links(pad);
+    g_autoptr(GstIterator) links = gst_pad_iterate_internal_links(pad);
     if (!links) return false;
     bool reached = false;
-    GValue link = G_VALUE_INIT;
+    g_auto(GValue) link = G_VALUE_INIT;
     while (!reached && gst_iterator_next(links, &link) == GST_ITERATOR_OK) {
       reached = reaches(GST_PAD(g_value_get_object(&link)));
       g_value_reset(&link);
     }
-    g_value_unset(&link);
-    gst_iterator_free(links);
     return reached;
   }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include <gst/gst.h>
 
@@ -13,10 +14,13 @@ struct Unref {
   void operator()(gpointer object) const { g_object_unref(object); }
   void operator()(GstBuffer* buffer) const { gst_buffer_unref(buffer); }
   void operator()(GstCaps* caps) const { gst_caps_unref(caps); }
+  void operator()(GstEvent* event) const { gst_event_unref(event); }
+  void operator()(GstQuery* query) const { gst_query_unref(query); }
+  void operator()(GArray* array) const { g_array_unref(array); }
   void operator()(GVariant* value) const { g_variant_unref(value); }
 };
 
-/// A reference to a GObject, a buffer, caps or a GVariant, or none. Made of a pointer, it takes
+/// A reference to a GObject, or to one of the types above, or none. Made of a pointer, it takes
 /// over the reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
 template <typename Object>
 using Ref = std::unique_ptr<Object, Unref>;
@@ -25,6 +29,13 @@ using Ref = std::unique_ptr<Object, Unref>;
 template <typename Object>
 Ref<Object> new_ref(Object* object) {
   return Ref<Object>(object ? static_cast<Object*>(g_object_ref(object)) : nullptr);
+}
+
+/// What a text says, which is freed; empty for null.
+inline std::string taken(gchar* text) {
+  std::string copy = text ? text : "";
+  g_free(text);
+  return copy;
 }
 
 /// Takes a new object, which nobody has a reference to, for its owner.

@@ -10,6 +10,7 @@
 
 #include "core/force/motion_rendering.h"
 #include "plugin/frame/point_owners.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/overlay/arrow.h"
 
 namespace spidar {
@@ -60,16 +61,14 @@ void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame)
                             static_cast<guint>(GST_VIDEO_FRAME_WIDTH(&frame)),
                             static_cast<guint>(GST_VIDEO_FRAME_HEIGHT(&frame)));
   roomy.colorimetry = frame.info.colorimetry;
-  GstBuffer* const buffer =
-      gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&roomy) + kRoom, nullptr);
+  const Ref<GstBuffer> buffer(
+      gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&roomy) + kRoom, nullptr));
   GstVideoFrame copy;
-  if (gst_video_frame_map(&copy, &roomy, buffer, GST_MAP_READWRITE)) {
-    gst_video_frame_copy(&copy, &frame);
-    gst_video_overlay_composition_blend(composition, &copy);
-    gst_video_frame_copy(&frame, &copy);
-    gst_video_frame_unmap(&copy);
-  }
-  gst_buffer_unref(buffer);
+  if (!gst_video_frame_map(&copy, &roomy, buffer.get(), GST_MAP_READWRITE)) return;
+  gst_video_frame_copy(&copy, &frame);
+  gst_video_overlay_composition_blend(composition, &copy);
+  gst_video_frame_copy(&frame, &copy);
+  gst_video_frame_unmap(&copy);
 }
 
 /// A transparent sheet over the visible part of a frame, in square pixels: (0, 0) is the centre of

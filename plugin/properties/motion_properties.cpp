@@ -17,17 +17,28 @@ namespace {
 
 using MotionRow = Property<MotionProperties>;
 
-/// What cannot be read leaves the pointer as it was, with a warning, as GObject does it.
-void set_pointer(MotionProperties& properties, const GValue* value) {
-  const char* const text = g_value_get_string(value);
-  const std::optional<Pointer> pointer = parse_pointer(text ? text : "");
-  if (pointer) {
-    properties.pointer = pointer->kind;
-    properties.analyzer.pointer = pointer->position;
-  } else {
-    g_warning("pointer=\"%s\" is neither 'grip' nor 'mouse' nor a position X,Y, each from 0 to 1",
-              text ? text : "");
-  }
+/// A text that `parse` reads. What it cannot read, because it is `neither` of what it may be,
+/// leaves the property as it was, with a warning, as GObject does it.
+template <typename Value>
+MotionRow parsed(PropertyNames n, std::optional<Value> (*parse)(const std::string&),
+                 Value (*get)(const MotionProperties&),
+                 void (*set)(MotionProperties&, const Value&), const std::string& neither) {
+  return {[=](const MotionProperties& defaults) {
+            return g_param_spec_string(n.name, n.nick, n.blurb, text_of(get(defaults)).c_str(),
+                                       kPlaying);
+          },
+          [=](MotionProperties& properties, const GValue* value) {
+            const char* const text = g_value_get_string(value) ? g_value_get_string(value) : "";
+            const std::optional<Value> read = parse(text);
+            if (read) {
+              set(properties, *read);
+            } else {
+              g_warning("%s=\"%s\" is neither %s", n.name, text, neither.c_str());
+            }
+          },
+          [=](const MotionProperties& properties, GValue* value) {
+            g_value_set_string(value, text_of(get(properties)).c_str());
+          }};
 }
 
 /// Where nobody sets alpha, mean velocities have the steepness that is closest to the paper: the
@@ -50,48 +61,33 @@ MotionRow with(MotionRow row, void (*then)(MotionProperties&)) {
 }
 
 MotionRow pointer_row() {
-  return {
-      [](const MotionProperties&) {
-        return g_param_spec_string("pointer", "Pointer",
-                                   "Position that weights the objects of motion=objects: 'grip', "
-                                   "'mouse', or X,Y as fractions of the picture from its top left",
-                                   kMiddle, kPlaying);
+  return parsed<Pointer>(
+      {"pointer", "Pointer",
+       "Position that weights the objects of motion=objects: 'grip', 'mouse', or X,Y as fractions "
+       "of the picture from its top left"},
+      parse_pointer,
+      [](const MotionProperties& properties) {
+        return Pointer{properties.pointer, properties.analyzer.pointer};
       },
-      set_pointer,
-      [](const MotionProperties& properties, GValue* value) {
-        g_value_take_string(
-            value,
-            g_strdup(text_of(Pointer{properties.pointer, properties.analyzer.pointer}).c_str()));
-      }};
-}
-
-/// The same as for set_pointer().
-void set_area(MotionProperties& properties, const GValue* value) {
-  const char* const text = g_value_get_string(value);
-  const std::optional<AreaSetting> area = parse_area(text ? text : "");
-  if (area) {
-    properties.analyzer.area = *area;
-  } else {
-    g_warning(
-        "area=\"%s\" is neither 'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, whole numbers of pixels, "
-        "of which "
-        "width and height are at least %d",
-        text ? text : "", kMinSide_px);
-  }
+      [](MotionProperties& properties, const Pointer& pointer) {
+        properties.pointer = pointer.kind;
+        properties.analyzer.pointer = pointer.position;
+      },
+      "'grip' nor 'mouse' nor a position X,Y, each from 0 to 1");
 }
 
 MotionRow area_row() {
-  return {[](const MotionProperties& defaults) {
-            return g_param_spec_string(
-                "area", "Area",
-                "Part of the picture that is analysed: 'whole', 'auto' (where it changes and the "
-                "rest does not), or X,Y,WIDTH,HEIGHT in pixels",
-                text_of(defaults.analyzer.area).c_str(), kPlaying);
-          },
-          set_area,
-          [](const MotionProperties& properties, GValue* value) {
-            g_value_take_string(value, g_strdup(text_of(properties.analyzer.area).c_str()));
-          }};
+  return parsed<AreaSetting>(
+      {"area", "Area",
+       "Part of the picture that is analysed: 'whole', 'auto' (where it changes and the rest does "
+       "not), or X,Y,WIDTH,HEIGHT in pixels"},
+      parse_area, [](const MotionProperties& properties) { return properties.analyzer.area; },
+      [](MotionProperties& properties, const AreaSetting& area) {
+        properties.analyzer.area = area;
+      },
+      "'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, whole numbers of pixels, of which width and height "
+      "are at least " +
+          std::to_string(kMinSide_px));
 }
 
 /// With analysis_mark().

@@ -91,9 +91,6 @@ struct MotionProperties : FrameSettings {
 /// All properties of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
 
-/// The default of the property `pointer`.
-constexpr const char* kMiddle = "0.5,0.5";
-
 /// "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for all else.
 std::optional<Pointer> parse_pointer(const std::string& text);
 /// The inverse of parse_pointer().

@@ -230,7 +230,7 @@ template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
                   GParamSpec* spec) {
-  GValue before = G_VALUE_INIT;
+  g_auto(GValue) before = G_VALUE_INIT;
   g_value_init(&before, G_PARAM_SPEC_VALUE_TYPE(spec));
   std::unique_lock<std::mutex> in_order(element->state->setting);
   GST_OBJECT_LOCK(element);
@@ -244,7 +244,6 @@ void set_property(const PropertyTable<Settings>& table, Element* element,
   if (late && g_param_values_cmp(spec, &before, value) != 0) {
     warn_of_late(GST_ELEMENT(element), spec);
   }
-  g_value_unset(&before);
 }
 
 /// GObjectClass::get_property of such an element, with `stats` for the statistics.

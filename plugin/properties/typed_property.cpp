@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/number_text.h"
+#include "plugin/gobject/ref.h"
 #include "spidar/text.h"
 
 namespace spidar {
@@ -58,12 +59,11 @@ std::string unit(GParamSpec* property) {
 /// Those that can be set.
 std::vector<std::string> names_of_properties(GObject* element) {
   guint count = 0;
-  GParamSpec** const all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+  g_autofree GParamSpec** all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
   std::vector<std::string> names;
   for (guint i = 0; i < count; ++i) {
     if (all[i]->flags & G_PARAM_WRITABLE) names.emplace_back(all[i]->name);
   }
-  g_free(all);
   return names;
 }
 
@@ -103,10 +103,7 @@ std::string TypedProperty::canonical_value() const {
   if (G_VALUE_HOLDS_DOUBLE(&value_)) {
     return std::string(NumberText(g_value_get_double(&value_)));
   }
-  gchar* const text = gst_value_serialize(&value_);
-  const std::string result = text ? text : "";
-  g_free(text);
-  return result;
+  return taken(gst_value_serialize(&value_));
 }
 
 std::optional<std::string> preset_of(const std::string& text) {
@@ -117,11 +114,8 @@ std::optional<std::string> preset_of(const std::string& text) {
 
 void load_preset(GstElement* element, const std::string& name) {
   if (gst_preset_load_preset(GST_PRESET(element), name.c_str())) return;
-  gchar** const names = gst_preset_get_preset_names(GST_PRESET(element));
-  gchar* const known = names ? g_strjoinv(", ", names) : nullptr;
-  const std::string list = known ? known : "";
-  g_free(known);
-  g_strfreev(names);
+  g_auto(GStrv) names = gst_preset_get_preset_names(GST_PRESET(element));
+  const std::string list = taken(names ? g_strjoinv(", ", names) : nullptr);
   throw tools::UsageError("there is no preset \"" + name + "\"; " +
                           (list.empty() ? "none is found: GST_PRESET_PATH names the folder of "
                                           "GstSpidarMotion.prs"

@@ -40,11 +40,12 @@ std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
 
 /// Latency of the live sources, as such an element queries it; 0 without live sources.
 GstClockTimeDiff latency_before(GstPad* sink_pad) {
-  GstQuery* query = gst_query_new_latency();
+  const Ref<GstQuery> query(gst_query_new_latency());
   gboolean live = FALSE;
   GstClockTime min = 0;
-  if (gst_pad_peer_query(sink_pad, query)) gst_query_parse_latency(query, &live, &min, nullptr);
-  gst_query_unref(query);
+  if (gst_pad_peer_query(sink_pad, query.get())) {
+    gst_query_parse_latency(query.get(), &live, &min, nullptr);
+  }
   return live && GST_CLOCK_TIME_IS_VALID(min) ? static_cast<GstClockTimeDiff>(min) : 0;
 }
 

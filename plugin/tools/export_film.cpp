@@ -14,6 +14,7 @@
 
 #include "plugin/films/file_bytes.h"
 #include "plugin/films/film_reader.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/tools/film_encoder.h"
 #include "plugin/tools/film_page.h"
 #include "plugin/tools/film_process.h"
@@ -33,10 +34,7 @@ namespace fs = std::filesystem;
 std::string relative_url(const fs::path& film, const fs::path& page) {
   const fs::path folder = fs::absolute(page).lexically_normal().parent_path();
   const fs::path path = fs::absolute(film).lexically_normal().lexically_relative(folder);
-  gchar* const escaped = g_uri_escape_string(path.c_str(), "/", FALSE);
-  const std::string url = escaped;
-  g_free(escaped);
-  return url;
+  return taken(g_uri_escape_string(path.c_str(), "/", FALSE));
 }
 
 constexpr const char* kMaker = "spidartrack export";
@@ -130,12 +128,7 @@ class ExportedFilm {
     const size_t at = html.find(kTrack);
     page.write(html.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
     constexpr size_t kAtOnce = 3 << 20;  // a multiple of 3, so that no padding comes in between
-    read_file(path, kAtOnce, [&page](const std::string& bytes) {
-      gchar* const text =
-          g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
-      page.write(text);
-      g_free(text);
-    });
+    read_file(path, kAtOnce, [&page](const std::string& bytes) { page.write(base64(bytes)); });
     page.write("</script>\n" + html.substr(at));
     publish(page);
     tell(page.target(), html, "; with the film in it" + missing);

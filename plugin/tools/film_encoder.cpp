@@ -11,11 +11,9 @@
 #include <gst/gst.h>
 
 #include "plugin/films/file_bytes.h"
-#include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tools/encoder_choice.h"
 #include "plugin/tools/film_watch.h"
 #include "plugin/tools/kept_streams.h"
 #include "plugin/tools/track_samples.h"
@@ -190,7 +188,7 @@ EncodedFilm encode_film(const std::string& film, const std::string& elements, co
       film, nullptr, kSlowShare);
   GstElement* const pictures = file.find(last);
   set_properties(pictures, properties);
-  watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
+  watch.begin(file.pipeline(), film);
   others.begin(file.pipeline());
   quiet.begin(file.pipeline());
   progress.watch(pictures);

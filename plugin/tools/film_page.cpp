@@ -13,7 +13,6 @@
 #include "core/force/motion_rendering.h"
 #include "core/json_text.h"
 #include "core/track/keyframes.h"
-#include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
@@ -37,15 +36,14 @@ GstPadProbeReturn measured(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
   if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
   FeltBox box;
   box.stream_ns = static_cast<int64_t>(at);
-  GArray* const objects = gst_buffer_get_spidar_objects(frame);
+  const Ref<GArray> objects(gst_buffer_get_spidar_objects(frame));
   for (guint i = 0; i < objects->len; ++i) {
-    const auto& object = g_array_index(objects, GstSpidarObject, i);
+    const auto& object = g_array_index(objects.get(), GstSpidarObject, i);
     if (!object.felt) continue;
     const double width = object.frame_width, height = object.frame_height;
     box.edges = {object.x / width, object.y / height, (object.x + object.w) / width,
                  (object.y + object.h) / height};
   }
-  g_array_unref(objects);
   boxes.push_back(box);
   return GST_PAD_PROBE_OK;
 }
@@ -61,7 +59,7 @@ std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string&
   const FilePipeline file(kMeasuredFilm, film, nullptr, kSlowShare);
   GstElement* const motion = file.find("motion");
   set_properties(motion, properties);
-  watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
+  watch.begin(file.pipeline(), film);
   progress.watch(motion);
   const Ref<GstPad> frames(gst_element_get_static_pad(motion, "src"));
   gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, measured, &boxes, nullptr);
@@ -92,10 +90,7 @@ std::string curve_text(const std::vector<double>& values, double tolerance, doub
   });
   for (const double value : values) points.add(value);
   points.finish();
-  gchar* const text = g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size());
-  std::string result = text;
-  g_free(text);
-  return result;
+  return base64(bytes);
 }
 
 /// As the content of a script element, which only "<" could end.
@@ -106,6 +101,10 @@ std::string script_json(const Json& value) {
 }
 
 }  // namespace
+
+std::string base64(const std::string& bytes) {
+  return taken(g_base64_encode(reinterpret_cast<const guchar*>(bytes.data()), bytes.size()));
+}
 
 void FilmPage::add(const TrackSample& sample) {
   const Eigen::Vector3d force_N = to_wrench(sample).force_N;

@@ -30,6 +30,9 @@ struct FeltBox {
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
                                      const std::function<void(int percent)>& tell);
 
+/// As a page has bytes in it.
+std::string base64(const std::string& bytes);
+
 class FilmPage {
  public:
   /// The curves of a page are made coarser until it is smaller than this, which mail and chat let

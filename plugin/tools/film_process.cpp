@@ -112,7 +112,7 @@ FilmResult record_film(const std::string& film, const PartFile& track,
           " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
       film, nullptr, unread.empty() ? kSlowShare : FilePipeline::kLongestSilence);
   set_properties(file.find("motion"), properties);
-  watch.begin(file.pipeline(), film_end(film) == FilmEnd::kAppended);
+  watch.begin(file.pipeline(), film);
   progress.watch(file.find("motion"));
   stored.watch(file.find("stored"));
   tag(file.find("extract"), {fingerprint, properties.settings});

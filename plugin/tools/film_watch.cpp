@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
@@ -29,15 +30,13 @@ std::string missing_decoder(const GstStructure* message) {
 
 }  // namespace
 
-void FilmWatch::begin(GstElement* pipeline, bool has_appended) {
-  has_appended_ = has_appended;
-  GstBus* bus = gst_element_get_bus(pipeline);
-  gst_bus_set_sync_handler(bus, handle, this, nullptr);
-  gst_object_unref(bus);
-  GstElement* decoder = gst_bin_get_by_name(GST_BIN(pipeline), "decode");
-  videos_.watch(decoder);
-  g_signal_connect(decoder, "no-more-pads", G_CALLBACK(choose), this);
-  gst_object_unref(decoder);
+void FilmWatch::begin(GstElement* pipeline, const std::string& film) {
+  has_appended_ = film_end(film) == FilmEnd::kAppended;
+  const Ref<GstBus> bus(gst_element_get_bus(pipeline));
+  gst_bus_set_sync_handler(bus.get(), handle, this, nullptr);
+  const Ref<GstElement> decoder(gst_bin_get_by_name(GST_BIN(pipeline), "decode"));
+  videos_.watch(decoder.get());
+  g_signal_connect(decoder.get(), "no-more-pads", G_CALLBACK(choose), this);
   convert_ = gst_bin_get_by_name(GST_BIN(pipeline), "convert");
   gst_object_unref(convert_);  // the pipeline has it
 }
@@ -56,7 +55,7 @@ GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
   }
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) self.failed_ = true;
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING && !self.failed_) {
-    GError* warning = nullptr;
+    g_autoptr(GError) warning = nullptr;
     gst_message_parse_warning(message, &warning, nullptr);
     // Players play what spidarmotion warns of: two frames of the same time, for example.
     const bool is_remark =
@@ -70,7 +69,6 @@ GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
     } else if (kept.empty() && !is_appended) {
       kept = warning->message;
     }
-    g_error_free(warning);
   } else if (about && gst_structure_has_name(about, "missing-plugin") && self.missing_.empty()) {
     self.missing_ = missing_decoder(about);
   }

@@ -55,10 +55,9 @@ class FilmWatch {
   FilmWatch(const FilmWatch&) = delete;
   FilmWatch& operator=(const FilmWatch&) = delete;
 
-  /// `pipeline` has a decodebin "decode", whose video goes to the element "convert".
-  /// `has_appended`: the film has something behind it, of which demuxers warn that they cannot
-  /// parse it.
-  void begin(GstElement* pipeline, bool has_appended);
+  /// `pipeline` reads `film`, and has a decodebin "decode", whose video goes to the element
+  /// "convert".
+  void begin(GstElement* pipeline, const std::string& film);
 
   /// Plays the film to its end. Throws std::runtime_error with what is wrong with it.
   void play(const FilePipeline& file) const;
@@ -80,13 +79,13 @@ class FilmWatch {
   VideoChoice videos_{VideoChoice::Rule::kFirst};
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;  ///< with an error; warnings after it follow from it
-  std::string warning_;  ///< the first one
-  std::string remark_;   ///< the first warning of spidarmotion
-  bool has_appended_ = false;
-  bool unmeasured_ = false;  ///< frames in a row; the remark says why
-  std::string missing_;      ///< the decoder of the video that is not installed
-  bool has_video_ = true;    ///< unknown until chosen
+  bool failed_ = false;        ///< with an error; warnings after it follow from it
+  std::string warning_;        ///< the first one
+  std::string remark_;         ///< the first warning of spidarmotion
+  bool has_appended_ = false;  ///< demuxers warn that they cannot parse what is behind the film
+  bool unmeasured_ = false;    ///< frames in a row; the remark says why
+  std::string missing_;        ///< the decoder of the video that is not installed
+  bool has_video_ = true;      ///< unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
   std::array<int, kNoForceReasons> frames_by_reason_{};  ///< that were measured

@@ -8,7 +8,6 @@
 
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tools/encoder_choice.h"
 
 namespace spidar::tools {
 namespace {

@@ -7,7 +7,25 @@
 
 #include <gst/gst.h>
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar::tools {
+
+/// One of those of which not all are installed.
+struct Encoder {
+  const char* element;
+  const char* line;  ///< of elements, for gst_parse_launch()
+};
+
+/// The line of the first one that is installed; null when none is.
+template <size_t kCount>
+const char* first_installed(const Encoder (&encoders)[kCount]) {
+  for (const Encoder& encoder : encoders) {
+    const Ref<GstElementFactory> factory(gst_element_factory_find(encoder.element));
+    if (factory) return encoder.line;
+  }
+  return nullptr;
+}
 
 /// Keeps every sound and all subtitles of a film that is decoded. AAC and MP3 are copied, other
 /// sound becomes AAC; subtitles that are text stay text, without what is bold or coloured. Outlives

@@ -12,6 +12,7 @@
 #include <gst/gst.h>
 
 #include "plugin/filter/choice/feel_file.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/properties/property_table.h"
 #include "plugin/properties/typed_property.h"
 #include "spidar/tools/command_line.h"
@@ -25,13 +26,10 @@ namespace {
 /// The properties that are marked with analysis_mark(), in the order of the alphabet.
 std::vector<std::string> names_of_analysis(GstElement* element) {
   guint count = 0;
-  const std::unique_ptr<GParamSpec*, void (*)(gpointer)> all(
-      g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count), g_free);
+  g_autofree GParamSpec** all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
   std::vector<std::string> names;
   for (guint i = 0; i < count; ++i) {
-    if (g_param_spec_get_qdata(all.get()[i], analysis_mark())) {
-      names.emplace_back(g_param_spec_get_name(all.get()[i]));
-    }
+    if (g_param_spec_get_qdata(all[i], analysis_mark())) names.emplace_back(all[i]->name);
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -81,12 +79,9 @@ std::vector<std::string> without_presets(GstElement* element,
       if (name == "feel" || name == "pointer" || name == "max-force") {
         continue;  // no preset has them
       }
-      GValue value = G_VALUE_INIT;
+      g_auto(GValue) value = G_VALUE_INIT;
       g_object_get_property(G_OBJECT(element), name.c_str(), &value);
-      gchar* const text = gst_value_serialize(&value);
-      result.push_back(name + "=" + text);
-      g_free(text);
-      g_value_unset(&value);
+      result.push_back(name + "=" + taken(gst_value_serialize(&value)));
     }
   }
   return result;
@@ -144,8 +139,7 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films) {
   RecordProperties properties;
-  const std::unique_ptr<GstElement, void (*)(gpointer)> element(
-      gst_element_factory_make("spidarmotion", nullptr), gst_object_unref);
+  const Ref<GstElement> element(gst_element_factory_make("spidarmotion", nullptr));
   if (!element) {
     throw std::runtime_error(
         "GStreamer finds no spidarmotion; set GST_PLUGIN_PATH to the folder of libgstspidar.so");

@@ -3,10 +3,12 @@
 // Records, inspects, checks, converts, plots and shows haptic tracks.
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <pthread.h>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <gst/gst.h>
@@ -63,18 +65,18 @@ class CommandLine {
   const CLI::App& program() const { return app_; }
 
  private:
-  CLI::App* add(const char* name, const char* description, int (CommandLine::*command)()) {
+  CLI::App* add(const char* name, const char* description, std::function<int()> command) {
     CLI::App* const added = app_.add_subcommand(name, description);
-    added->callback([this, command] {
+    added->callback([this, command = std::move(command)] {
       search_folder();
-      status_ = (this->*command)();
+      status_ = command();
     });
     return added;
   }
 
   void add_record() {
     CLI::App* const app = add("record", "analyse films and write their haptic tracks beside them",
-                              &CommandLine::record);
+                              [this] { return record(); });
     record_.jobs = usable_processors();
     app->footer(
         R"(Writes the haptic track of FILM.mp4 as FILM.mp4.haptic.flac, as fast as the film can be
@@ -150,8 +152,8 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
   }
 
   void add_info() {
-    CLI::App* const app =
-        add("info", "print how long and how strong a track is", &CommandLine::info);
+    CLI::App* const app = add("info", "print how long and how strong a track is",
+                              [this] { return print_info(track_, json_); });
     app->footer(
         R"(Prints the length of the track, its largest force and torque and their steepest change; and
 of each channel the peak and the root mean square, in N and N m, and the fraction of its energy
@@ -160,11 +162,10 @@ is that of this film.)");
     add_track(app, "TRACK", track_);
     app->add_flag("--json", json_, "print it as JSON");
   }
-  int info() { return print_info(track_, json_); }
 
   void add_check() {
-    CLI::App* const app =
-        add("check", "report what in a track cannot be felt as it is", &CommandLine::check);
+    CLI::App* const app = add("check", "report what in a track cannot be felt as it is",
+                              [this] { return check_track(track_, max_force_N_, max_torque_Nm_); });
     app->footer(
         R"(Reports a track that is cut off, samples that are not numbers or beyond the full scale, force
 and torque above the limits, force that changes by more than 300 N/s, a channel with more than
@@ -180,11 +181,10 @@ in any case. Also prints how much of the track is felt.)");
         ->check(number(0, 1, " N m"))
         ->type_name("NM");
   }
-  int check() { return check_track(track_, max_force_N_, max_torque_Nm_); }
 
   void add_convert() {
-    CLI::App* const app =
-        add("convert", "convert a track into another format", &CommandLine::convert);
+    CLI::App* const app = add("convert", "convert a track into another format",
+                              [this] { return convert_track(convert_); });
     app->footer(R"(The formats follow from how the names end:
   .flac .mka .wav  sound of six channels; also read from other containers and from films
   .hjif            MPEG's format for haptics
@@ -215,20 +215,19 @@ Prints what TO cannot hold.)");
         ->check(number(0, 1))
         ->type_name("SHARE");
   }
-  int convert() { return convert_track(convert_); }
 
   void add_plot() {
-    CLI::App* const app = add("plot", "draw force and torque over time", &CommandLine::plot);
+    CLI::App* const app = add("plot", "draw force and torque over time",
+                              [this] { return plot_track(track_, png_, force_); });
     app->footer("Needs gnuplot.");
     add_track(app, "TRACK", track_);
     app->add_option("PNG", png_, "the picture to write")->required()->type_name("");
     add_force(app, "PNG", force_);
   }
-  int plot() { return plot_track(track_, png_, force_); }
 
   void add_show() {
     CLI::App* const app =
-        add("show", "make a film with its force drawn into it", &CommandLine::show);
+        add("show", "make a film with its force drawn into it", [this] { return show(); });
     app->footer(
         R"(Analyses FILM, and writes a film of its pictures, sound and subtitles into which are drawn
 the outlines of objects, the force as an arrow with its newtons, and the curve of the force over the last
@@ -260,7 +259,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
 
   void add_export() {
     CLI::App* const app = add("export", "make a web page that plays a film with its force",
-                              &CommandLine::export_page);
+                              [this] { return export_page(); });
     app->footer(
         R"(The page plays FILM with an arrow and a curve of the force, and vibrates a gamepad, or a
 telephone. It needs no network. The force is that of the track of FILM; if it has none, FILM is

@@ -140,12 +140,7 @@ class TrackOfFile : public OpenTrack {
 
   void seek(int64_t time_ns) override {
     sought_ns_ = time_ns;
-    GstEvent* const event =
-        gst_event_new_seek(1, GST_FORMAT_TIME,
-                           static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT |
-                                                     GST_SEEK_FLAG_SNAP_BEFORE),
-                           GST_SEEK_TYPE_SET, std::max<int64_t>(time_ns, 0), GST_SEEK_TYPE_NONE, 0);
-    if (gst_element_send_event(file_.find("out"), event)) return;
+    if (seek_before(file_.find("out"), std::max<int64_t>(time_ns, 0))) return;
     blocks_->end("it can only be read from its beginning to its end");
   }
 
@@ -235,11 +230,10 @@ class TrackOfFile : public OpenTrack {
   static void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     auto& self = *static_cast<TrackOfFile*>(user);
     if (!self.blocks_->error().empty()) return;
-    GstEvent* const segment = gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0);
+    const Ref<GstEvent> segment(gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0));
     if (!segment) {  // wavparse then goes on for ever
       return self.fail(GST_PAD_PARENT(pad), "its head is damaged: no chunk of samples is found");
     }
-    gst_event_unref(segment);
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
     if (caps.get() != self.caps_.get()) {  // also in the middle of a stream
       std::string error = self.input_.set_caps(caps.get());

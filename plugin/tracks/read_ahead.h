@@ -58,7 +58,7 @@ class ReadAhead {
   void set_later(int64_t later_ns);
   /// The next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
-  /// Moves the oldest block into `block`; waits for it until `limit`, or interrupt().
+  /// Moves the oldest block into `block`; waits for it until `limit`, or until interrupted.
   Found take(TrackBlock& block, std::chrono::steady_clock::time_point limit);
 
   // --- any thread
@@ -70,9 +70,8 @@ class ReadAhead {
   /// Whether take() has waited in vain.
   bool was_late() const;
   tracks::Faults faults() const;
-  /// Until resume(), take() does not wait.
-  void interrupt() { set(interrupted_, true); }
-  void resume() { set(interrupted_, false); }
+  /// While it is interrupted, take() does not wait.
+  void set_interrupted(bool interrupted) { set(interrupted_, interrupted); }
   /// From now on, nothing waits and no block is added.
   void stop() { set(stopped_, true); }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "plugin/films/file_pipeline.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/tracks/name_form.h"
 #include "spidar/install_folder.h"
 
@@ -94,18 +95,10 @@ const char* const kOtherPictures =
     "it was recorded from other pictures, or from these before they were encoded anew";
 
 std::string film_of(GstPad* pad) {
-  std::string film;
-  GstQuery* query = gst_query_new_uri();
-  if (gst_pad_peer_query(pad, query)) {
-    gchar* uri = nullptr;
-    gst_query_parse_uri(query, &uri);
-    gchar* const path = uri ? g_filename_from_uri(uri, nullptr, nullptr) : nullptr;
-    if (path) film = path;
-    g_free(path);
-    g_free(uri);
-  }
-  gst_query_unref(query);
-  return film;
+  const Ref<GstQuery> query(gst_query_new_uri());
+  g_autofree gchar* uri = nullptr;
+  if (gst_pad_peer_query(pad, query.get())) gst_query_parse_uri(query.get(), &uri);
+  return taken(uri ? g_filename_from_uri(uri, nullptr, nullptr) : nullptr);
 }
 
 std::string find_sidecar(const std::string& film) {

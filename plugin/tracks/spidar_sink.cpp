@@ -41,7 +41,7 @@
 #include "plugin/device/device_warnings.h"
 #include "plugin/device/haptic_output.h"
 #include "plugin/films/stream_content.h"
-#include "plugin/frame/motion_message.h"
+#include "plugin/frame/frame_fields.h"
 #include "plugin/gobject/structure_fields.h"
 #include "plugin/properties/device_rows.h"
 #include "plugin/properties/property_table.h"

@@ -6,19 +6,13 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "plugin/gobject/ref.h"
 #include "plugin/timing/instant_rate.h"
 
 namespace spidar::tracks {
 namespace {
 
 constexpr guint64 kMaskOf5_1 = 0x3f;
-
-std::string hexadecimal(guint64 mask) {
-  gchar* const text = g_strdup_printf("0x%" G_GINT64_MODIFIER "x", mask);
-  std::string result = text;
-  g_free(text);
-  return result;
-}
 
 bool has_no_mask(const GstCaps* caps) {
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
@@ -31,7 +25,8 @@ std::string strange_mask(const GstCaps* caps) {
   guint64 mask = 0;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
   if (!gst_structure_get(structure, "channel-mask", GST_TYPE_BITMASK, &mask, nullptr)) return {};
-  return mask == 0 || mask == kMaskOf5_1 ? std::string() : hexadecimal(mask);
+  if (mask == 0 || mask == kMaskOf5_1) return {};
+  return taken(g_strdup_printf("0x%" G_GINT64_MODIFIER "x", mask));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "plugin/films/film_reader.h"
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_input.h"
@@ -90,7 +91,7 @@ void post_what_is_felt(GstElement* element, const std::string& text) {
 
 /// Names what is set and changes nothing while a track is played.
 void name_unused(GstElement* element, const std::string& path) {
-  gchar* feel = nullptr;
+  g_autofree gchar* feel = nullptr;
   g_object_get(element, "feel", &feel, nullptr);
   if (feel) {
     GST_ELEMENT_WARNING(
@@ -98,7 +99,6 @@ void name_unused(GstElement* element, const std::string& path) {
         ("feel=%s has no effect while the haptic track %s is played.", feel, path.c_str()),
         ("Leave out the one or the other, or make the haptic track anew with it."));
   }
-  g_free(feel);
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ struct Loader::Reading {
     loaded = what;
     opened = true;
     if (stopped && loaded.blocks) loaded.blocks->stop();
-    if (interrupted && loaded.blocks) loaded.blocks->interrupt();
+    if (interrupted && loaded.blocks) loaded.blocks->set_interrupted(true);
     changed.notify_all();
   }
   void set_done() {
@@ -183,21 +183,13 @@ std::optional<LoadedTrack> Loader::take() {
   return reading->loaded;
 }
 
-void Loader::interrupt() {
+void Loader::set_interrupted(bool interrupted) {
   const auto reading = this->reading();
   if (!reading) return;
   const std::lock_guard<std::mutex> lock(reading->mutex);
-  reading->interrupted = true;
-  if (reading->loaded.blocks) reading->loaded.blocks->interrupt();
+  reading->interrupted = interrupted;
+  if (reading->loaded.blocks) reading->loaded.blocks->set_interrupted(interrupted);
   reading->changed.notify_all();
-}
-
-void Loader::resume() {
-  const auto reading = this->reading();
-  if (!reading) return;
-  const std::lock_guard<std::mutex> lock(reading->mutex);
-  reading->interrupted = false;
-  if (reading->loaded.blocks) reading->loaded.blocks->resume();
 }
 
 void Loader::stop() {
@@ -233,9 +225,8 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
   }
   std::string error = loaded.error;
   if (error.empty() && !loaded.is_compared) {
-    GstPad* pad = gst_element_get_static_pad(element, "sink");
-    error = why_other_film(pad, loaded.duration_ns, frame_ns);
-    gst_object_unref(pad);
+    const Ref<GstPad> pad(gst_element_get_static_pad(element, "sink"));
+    error = why_other_film(pad.get(), loaded.duration_ns, frame_ns);
   }
   std::string remark = loaded.remark;
   if (!error.empty() && loaded.error.empty() && loaded.is_named) {

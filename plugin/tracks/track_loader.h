@@ -46,17 +46,16 @@ class Loader {
   /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track inside
   /// it. Nothing when `wanted` is empty. Stops what was being read.
   void begin(const std::string& wanted, const std::string& film);
-  /// Returns when it is known whether the track can be used, when `limit` has passed, or at
-  /// interrupt().
+  /// Returns when it is known whether the track can be used, when `limit` has passed, or when it
+  /// is interrupted.
   void await(std::chrono::milliseconds limit);
   /// The track that was opened, once; nothing before. It is read further until stop().
   std::optional<LoadedTrack> take();
 
   // --- any thread
 
-  /// Until begin() or resume(), neither await() nor ReadAhead::take() waits.
-  void interrupt();
-  void resume();
+  /// While it is interrupted, up to begin(), neither await() nor ReadAhead::take() waits.
+  void set_interrupted(bool interrupted);
 
   // --- while no streaming thread runs
 

@@ -54,9 +54,8 @@ Stream::~Stream() {
 void Stream::begin_stream(GstElement* element, const GstEvent* stream_start) {
   // gst_event_parse_*() take non-const events, but do not change them.
   auto* const given = const_cast<GstEvent*>(stream_start);
-  gchar* const id = gst_pad_create_stream_id(pad_, element, "wrench");
+  g_autofree gchar* id = gst_pad_create_stream_id(pad_, element, "wrench");
   GstEvent* const event = gst_event_new_stream_start(id);
-  g_free(id);
   guint group;
   if (gst_event_parse_group_id(given, &group)) gst_event_set_group_id(event, group);
   gst_event_set_seqnum(event, gst_event_get_seqnum(given));

@@ -7,6 +7,7 @@
 #include <gst/gst.h>
 
 #include "plugin/films/stream_content.h"
+#include "plugin/gobject/ref.h"
 
 namespace spidar::tracks {
 namespace {
@@ -61,10 +62,9 @@ GstTagList* tags(const Notes& notes) {
 void read_notes(const GstTagList* tags, Notes& notes) {
   const guint count = gst_tag_list_get_tag_size(tags, GST_TAG_COMMENT);
   for (guint i = 0; i < count; ++i) {
-    gchar* comment = nullptr;
+    g_autofree gchar* comment = nullptr;
     if (!gst_tag_list_get_string_index(tags, GST_TAG_COMMENT, i, &comment)) continue;
     std::istringstream lines(comment);
-    g_free(comment);
     for (std::string line; std::getline(lines, line);) {
       if (!line.empty() && line.back() == '\r') line.pop_back();
       if (line.rfind(kFilm, 0) == 0) {
@@ -82,10 +82,9 @@ void tag(GstPad* pad, const Notes& notes) {
   constexpr auto kAll =
       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_BUFFER_LIST |
                                    GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
-  GstPad* into = gst_pad_get_peer(pad);
-  gst_pad_add_probe(into, kAll, replace_tags, new Tagging{notes},
+  const Ref<GstPad> into(gst_pad_get_peer(pad));
+  gst_pad_add_probe(into.get(), kAll, replace_tags, new Tagging{notes},
                     [](gpointer owned) { delete static_cast<Tagging*>(owned); });
-  gst_object_unref(into);
 }
 
 }  // namespace spidar::tracks

@@ -164,7 +164,7 @@ TEST(TrackReplay, BackwardsNothingIsLeftOutThatComesLate) {
     ASSERT_TRUE(blocks->put(block, {}));
   };
   for (int ms = 0; ms <= 960; ms += kBlock_ms) put(ms);
-  blocks->interrupt();  // nothing waits for the next
+  blocks->set_interrupted(true);  // nothing waits for the next
   filter::TrackReplay replay;
   replay.set_track(blocks);
   std::vector<int64_t> given_ms;
@@ -198,11 +198,11 @@ TEST(ReadAhead, WhatCannotBeReadFurtherIsSaidWhenAllHasBeenTaken) {
 TEST(ReadAhead, ABlockThatIsNotThereIsLateAndOneThatIsInterruptedIsNot) {
   ReadAhead blocks;
   TrackBlock block;
-  blocks.interrupt();
+  blocks.set_interrupted(true);
   EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now() + kLongest),
             ReadAhead::Found::kLate);
   EXPECT_FALSE(blocks.was_late());
-  blocks.resume();
+  blocks.set_interrupted(false);
   EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now()), ReadAhead::Found::kLate);
   EXPECT_TRUE(blocks.was_late());
 }

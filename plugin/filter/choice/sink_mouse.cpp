@@ -8,6 +8,8 @@
 #include <gst/video/navigation.h>
 #include <gst/video/video.h>
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar::filter {
 namespace {
 
@@ -21,10 +23,9 @@ double fraction(double at_px, int size_px) {
 }
 
 std::optional<GstVideoInfo> info_of(GstPad* pad) {
-  GstCaps* const caps = gst_pad_get_current_caps(pad);
+  const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
   GstVideoInfo info;
-  const bool known = caps && gst_video_info_from_caps(&info, caps);
-  if (caps) gst_caps_unref(caps);
+  const bool known = caps && gst_video_info_from_caps(&info, caps.get());
   return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
 }
 

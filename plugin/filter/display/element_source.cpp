@@ -38,11 +38,9 @@ std::vector<window::Setting::Choice> choices_of(const GParamSpecEnum* spec) {
 double number_of(const GValue* value) {
   if (G_VALUE_HOLDS_BOOLEAN(value)) return g_value_get_boolean(value) ? 1 : 0;
   if (G_VALUE_HOLDS_ENUM(value)) return g_value_get_enum(value);
-  GValue number = G_VALUE_INIT;
+  g_auto(GValue) number = G_VALUE_INIT;
   g_value_init(&number, G_TYPE_DOUBLE);
-  const double result = g_value_transform(value, &number) ? g_value_get_double(&number) : 0;
-  g_value_unset(&number);
-  return result;
+  return g_value_transform(value, &number) ? g_value_get_double(&number) : 0;
 }
 
 /// Returns false for a property that the element inherits, that cannot be changed while playing or
@@ -83,11 +81,9 @@ bool is_offered(const std::string& setting) {
 }
 
 double get_value(GObject* object, const window::Setting& setting) {
-  GValue value = G_VALUE_INIT;
+  g_auto(GValue) value = G_VALUE_INIT;
   g_object_get_property(object, setting.name.c_str(), &value);
-  const double result = number_of(&value);
-  g_value_unset(&value);
-  return result;
+  return number_of(&value);
 }
 
 class ElementSource final : public window::Source {
@@ -168,8 +164,7 @@ class ElementSource final : public window::Source {
     if (!held) return {false, "Not saved: the element is gone."};
     gchar* property = nullptr;
     g_object_get(held.get(), "feel", &property, nullptr);
-    const std::string feel = property ? property : "";
-    g_free(property);
+    const std::string feel = taken(property);
     try {
       std::string done = save_feel(feel, film, edits);
       if (!feel.empty() && feel != "auto" && !is_feel_file(feel)) done += " feel=auto reads it.";
@@ -206,10 +201,8 @@ class ElementSource final : public window::Source {
         [](GstElement* element, gpointer sought) {
           const auto flags =
               static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_KEY_UNIT);
-          gst_element_send_event(
-              element, gst_event_new_seek(1, GST_FORMAT_TIME, flags, GST_SEEK_TYPE_SET,
-                                          (*static_cast<Sought*>(sought))->exchange(kNone_ns),
-                                          GST_SEEK_TYPE_NONE, 0));
+          gst_element_seek_simple(element, GST_FORMAT_TIME, flags,
+                                  (*static_cast<Sought*>(sought))->exchange(kNone_ns));
         },
         new Sought(sought_ns_), [](gpointer sought) { delete static_cast<Sought*>(sought); });
   }
@@ -231,20 +224,19 @@ class ElementSource final : public window::Source {
 
   static void list_settings(GstElement* element, std::vector<window::Setting>& settings) {
     guint count = 0;
-    GParamSpec** specs = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
+    g_autofree GParamSpec** specs =
+        g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
     for (guint i = 0; i < count; ++i) {
       window::Setting setting;
       if (describe(element, specs[i], setting) && is_offered(setting.name)) {
         settings.push_back(std::move(setting));
       }
     }
-    g_free(specs);
   }
 
   static void list_presets(GstElement* element, std::vector<std::string>& presets) {
-    gchar** const names = gst_preset_get_preset_names(GST_PRESET(element));
+    g_auto(GStrv) names = gst_preset_get_preset_names(GST_PRESET(element));
     for (gchar** name = names; name && *name; ++name) presets.emplace_back(*name);
-    g_strfreev(names);
   }
 
   GWeakRef element_;

@@ -11,6 +11,7 @@
 #include <gst-spidar/gstspidarmotionmeta.h>
 
 #include "plugin/frame/frame_fields.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/gobject/structure_fields.h"
 
 namespace spidar::filter {
@@ -136,26 +137,20 @@ bool map_motion(const Eigen::Matrix3d& map, GstSpidarFrameMotion& m) {
 bool copy_mapped(GstBuffer* to, GstBuffer* from, const Eigen::Matrix3d& map,
                  const GstVideoInfo& out) {
   GstSpidarFrameMotion motion;
-  GArray* points = gst_buffer_get_spidar_points(from);
-  if (!points || !gst_buffer_get_spidar_motion(from, &motion)) {
-    g_clear_pointer(&points, g_array_unref);
-    return false;
-  }
-  if (!map_motion(map, motion)) {
-    g_array_unref(points);
+  const Ref<GArray> points(gst_buffer_get_spidar_points(from));
+  if (!points || !gst_buffer_get_spidar_motion(from, &motion) || !map_motion(map, motion)) {
     return false;
   }
   motion.width = static_cast<guint>(GST_VIDEO_INFO_WIDTH(&out));
   motion.height = static_cast<guint>(GST_VIDEO_INFO_HEIGHT(&out));
   std::vector<SerialisedPoint> moved;
   for (guint i = 0; i < points->len; ++i) {
-    const GstSpidarMotionPoint& point = g_array_index(points, GstSpidarMotionPoint, i);
+    const GstSpidarMotionPoint& point = g_array_index(points.get(), GstSpidarMotionPoint, i);
     const Eigen::Vector2d before = mapped(map, {point.from_x, point.from_y});
     const Eigen::Vector2d now = mapped(map, {point.to_x, point.to_y});
     if (!before.allFinite() || !now.allFinite()) continue;  // at the horizon
     moved.push_back({point.id, 0, before.x(), before.y(), now.x(), now.y(), point.object, 0});
   }
-  g_array_unref(points);
   GstStructure* const structure = add_copy(to, from);
   set_mapped(structure, motion, mapped_area(map, from, out));
   set_points(structure, moved);

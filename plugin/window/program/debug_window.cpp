@@ -64,19 +64,14 @@ std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
     close(opened);
     return std::strerror(error);
   }
-  bool complete = true;
   stbi_flip_vertically_on_write(1);
-  const auto write = [&](void* data, int size) {
-    const auto bytes = static_cast<size_t>(size);
-    if (std::fwrite(data, 1, bytes, file) != bytes) complete = false;
+  const auto write = [](void* to, void* data, int size) {
+    std::fwrite(data, 1, static_cast<size_t>(size), static_cast<std::FILE*>(to));
   };
-  const bool encoded = stbi_write_png_to_func(
-                           [](void* context, void* data, int size) {
-                             (*static_cast<decltype(write)*>(context))(data, size);
-                           },
-                           const_cast<void*>(static_cast<const void*>(&write)), width, height, 3,
-                           rgb.data(), 3 * width) != 0;
+  const bool encoded =
+      stbi_write_png_to_func(write, file, width, height, 3, rgb.data(), 3 * width) != 0;
   if (std::fflush(file) == 0) mark_written(fileno(file), kMaker);
+  const bool complete = std::ferror(file) == 0;
   const bool closed = std::fclose(file) == 0;
   return encoded && complete && closed ? "" : "it cannot be written; is the disk full?";
 }

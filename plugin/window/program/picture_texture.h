@@ -14,6 +14,7 @@
 #include <gst/video/video.h>
 
 #include "core/touch/height_field.h"
+#include "plugin/gobject/ref.h"
 #include "plugin/window/view/shared_pictures.h"
 
 namespace spidar::window {
@@ -29,7 +30,6 @@ class PictureTexture {
   ~PictureTexture() {
     glDeleteTextures(1, &id_);
     if (converter_) gst_video_converter_free(converter_);
-    gst_clear_buffer(&converted_);
   }
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
@@ -47,13 +47,11 @@ class PictureTexture {
     if (!prepare(info, width, height)) return false;
     const gsize bytes = GST_VIDEO_INFO_SIZE(&info);
     // Read only: its pixels stay as they are.
-    GstBuffer* const buffer = gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY,
-                                                          const_cast<uint8_t*>(picture.pixels()),
-                                                          bytes, 0, bytes, nullptr, nullptr);
-    const bool is_mapped = gst_video_frame_map(&source, &source_, buffer, GST_MAP_READ) != FALSE;
-    gst_buffer_unref(buffer);
-    if (!is_mapped) return false;
-    if (!gst_video_frame_map(&target, &target_, converted_, GST_MAP_READWRITE)) {
+    const Ref<GstBuffer> buffer(gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY,
+                                                            const_cast<uint8_t*>(picture.pixels()),
+                                                            bytes, 0, bytes, nullptr, nullptr));
+    if (!gst_video_frame_map(&source, &source_, buffer.get(), GST_MAP_READ)) return false;
+    if (!gst_video_frame_map(&target, &target_, converted_.get(), GST_MAP_READWRITE)) {
       gst_video_frame_unmap(&source);
       return false;
     }
@@ -101,8 +99,6 @@ class PictureTexture {
   double pixel_aspect() const { return pixel_aspect_; }
 
   bool empty() const { return width_ == 0; }
-  /// Width over height of what is shown, on a screen with square pixels.
-  double aspect() const { return height_ > 0 ? pixel_aspect_ * width_ / height_ : 1; }
   unsigned id() const { return id_; }
 
  private:
@@ -112,7 +108,6 @@ class PictureTexture {
       return true;
     }
     if (converter_) gst_video_converter_free(converter_);
-    gst_clear_buffer(&converted_);
     source_ = source;
     gst_video_info_set_format(&target_, GST_VIDEO_FORMAT_RGBA, static_cast<guint>(width),
                               static_cast<guint>(height));
@@ -121,7 +116,7 @@ class PictureTexture {
         gst_structure_new("options", GST_VIDEO_CONVERTER_OPT_RESAMPLER_METHOD,
                           GST_TYPE_VIDEO_RESAMPLER_METHOD, GST_VIDEO_RESAMPLER_METHOD_LINEAR,
                           nullptr));
-    converted_ = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&target_), nullptr);
+    converted_.reset(gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&target_), nullptr));
     return converter_ && converted_;
   }
 
@@ -132,7 +127,7 @@ class PictureTexture {
   GstVideoInfo source_{};
   GstVideoInfo target_{};
   GstVideoConverter* converter_ = nullptr;
-  GstBuffer* converted_ = nullptr;
+  Ref<GstBuffer> converted_;
 };
 
 }  // namespace spidar::window

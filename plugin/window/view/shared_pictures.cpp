@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "plugin/gobject/ref.h"
+
 namespace spidar::window {
 namespace {
 
@@ -26,20 +28,13 @@ GstVideoInfo plain_info(const GstVideoInfo& given) {
 }
 
 std::string caps_text(const GstVideoInfo& info) {
-  GstCaps* const caps = gst_video_info_to_caps(&info);
-  gchar* const text = gst_caps_to_string(caps);
-  std::string result = text;
-  g_free(text);
-  gst_caps_unref(caps);
-  return result;
+  const Ref<GstCaps> caps(gst_video_info_to_caps(&info));
+  return taken(gst_caps_to_string(caps.get()));
 }
 
 bool read_caps(const std::string& text, GstVideoInfo& info) {
-  GstCaps* const caps = gst_caps_from_string(text.c_str());
-  if (!caps) return false;
-  const bool is_read = gst_caps_is_fixed(caps) && gst_video_info_from_caps(&info, caps);
-  gst_caps_unref(caps);
-  return is_read;
+  const Ref<GstCaps> caps(gst_caps_from_string(text.c_str()));
+  return caps && gst_caps_is_fixed(caps.get()) && gst_video_info_from_caps(&info, caps.get());
 }
 
 }  // namespace
@@ -81,15 +76,12 @@ void PictureSlots::give_back(uint32_t slot) {
 
 bool PictureSlots::copy(const GstVideoFrame& frame, uint32_t slot) const {
   const gsize bytes = description_.slot_bytes;
-  GstBuffer* const buffer = gst_buffer_new_wrapped_full(
-      GST_MEMORY_FLAG_NO_SHARE, memory_ + slot * bytes, bytes, 0, bytes, nullptr, nullptr);
+  const Ref<GstBuffer> buffer(gst_buffer_new_wrapped_full(
+      GST_MEMORY_FLAG_NO_SHARE, memory_ + slot * bytes, bytes, 0, bytes, nullptr, nullptr));
   GstVideoFrame target;
-  bool is_copied = false;
-  if (gst_video_frame_map(&target, &info_, buffer, GST_MAP_WRITE)) {
-    is_copied = gst_video_frame_copy(&target, &frame) != FALSE;
-    gst_video_frame_unmap(&target);
-  }
-  gst_buffer_unref(buffer);
+  if (!gst_video_frame_map(&target, &info_, buffer.get(), GST_MAP_WRITE)) return false;
+  const bool is_copied = gst_video_frame_copy(&target, &frame) != FALSE;
+  gst_video_frame_unmap(&target);
   return is_copied;
 }
 

@@ -73,39 +73,24 @@ class MappedPictures {
   const uint8_t* memory_ = nullptr;
 };
 
-/// One picture in it, or none. Its destructor says that the slot is free.
+/// One picture in it, or none. When the last copy goes, `set_free` says that the slot is free.
 class SharedPicture {
  public:
   SharedPicture() = default;
   SharedPicture(std::shared_ptr<const MappedPictures> memory, uint32_t slot,
-                std::function<void()> set_free)
-      : memory_(std::move(memory)), slot_(slot), set_free_(std::move(set_free)) {}
-  ~SharedPicture() { reset(); }
-  SharedPicture(SharedPicture&& other) noexcept { swap(other); }
-  SharedPicture& operator=(SharedPicture&& other) noexcept {
-    SharedPicture(std::move(other)).swap(*this);
-    return *this;
-  }
+                const std::function<void()>& set_free)
+      : memory_(std::move(memory)),
+        slot_(slot),
+        held_(nullptr, [set_free](void*) { set_free(); }) {}
 
   bool is_there() const { return memory_ != nullptr; }
   const GstVideoInfo& info() const { return memory_->info(); }
   const uint8_t* pixels() const { return memory_->slot(slot_); }
 
  private:
-  void swap(SharedPicture& other) noexcept {
-    memory_.swap(other.memory_);
-    std::swap(slot_, other.slot_);
-    set_free_.swap(other.set_free_);
-  }
-  void reset() {
-    if (set_free_) set_free_();
-    set_free_ = nullptr;
-    memory_.reset();
-  }
-
   std::shared_ptr<const MappedPictures> memory_;
   uint32_t slot_ = 0;
-  std::function<void()> set_free_;
+  std::shared_ptr<void> held_;
 };
 
 }  // namespace spidar::window
