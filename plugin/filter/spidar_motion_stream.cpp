@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 // Frames and events that pass through the element.
 #include <chrono>
-#include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "plugin/frame/frame_luma.h"
 
 #include <algorithm>
-#include <cstring>
 #include <iterator>
 
 #include "core/picture/luma.h"

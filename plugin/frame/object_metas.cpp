@@ -3,7 +3,6 @@
 #include "plugin/frame/object_metas.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <utility>
 

@@ -3,7 +3,6 @@
 #include "plugin/frame/point_owners.h"
 
 #include <algorithm>
-#include <utility>
 
 namespace spidar {
 namespace {

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <iostream>

@@ -11,7 +11,6 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <spawn.h>
 #include <stdexcept>
 #include <string>
@@ -21,7 +20,6 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-#include <utility>
 #include <vector>
 
 #include <gst/gst.h>

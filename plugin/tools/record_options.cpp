@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include <gst/gst.h>
 

@@ -3,7 +3,6 @@
 #include "plugin/tracks/script_set.h"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>

@@ -8,7 +8,6 @@
 #include <initializer_list>
 #include <iterator>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <vector>
 

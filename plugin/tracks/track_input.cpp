@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "plugin/gobject/ref.h"
 #include "plugin/timing/instant_rate.h"

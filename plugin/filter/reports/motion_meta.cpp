@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <optional>
-#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/SVD>

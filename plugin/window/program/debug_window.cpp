@@ -7,7 +7,6 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <ctime>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What the user does to a debug window, and chooses of the objects in the picture.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <imgui.h>

@@ -3,7 +3,6 @@
 #include "plugin/window/program/model/scene_choices.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "plugin/window/program/model/object_click.h"
 
