@@ -78,9 +78,9 @@ struct ChoiceInput {
   }
 };
 
-/// Finds the object in a box: boxes say what is meant, objects how it moves. A detector misses
-/// objects in some frames, so the object is kept for a moment without a box. Of several objects in
-/// boxes, the largest is taken; it stays for as long as there is a box around it.
+/// Finds the object in a box: a box says which object is meant, the object how it moves. A detector
+/// misses objects in some frames, so the object is kept for a moment without a box. Of several
+/// objects in boxes, the largest is taken; it stays for as long as there is a box around it.
 class BoxedObject {
  public:
   /// Looks for boxes of this name, or for any when it is empty. `name` must stay valid until the
@@ -90,7 +90,7 @@ class BoxedObject {
   /// Takes the next frame. Returns the object as it is in `frame`; null when none is known.
   const MovingObject* update(const ChoiceInput& frame);
 
-  /// All objects have other ids.
+  /// After a cut, when all objects have new ids.
   void cut() { id_ = 0; }
 
   /// kNoBox or kBoxAtRest when no box was around an object within kPatience_s of begin(); else
@@ -127,9 +127,9 @@ class FollowedObject {
   enum class State {
     kLooking,   ///< for what is at the position
     kWaiting,   ///< nothing was there: for what will begin to move there
-    kFollowed,  ///< or not seen for a moment
-    kResting,   ///< where it was last
-    kLost,      ///< nobody knows where it is
+    kFollowed,  ///< in sight, or hidden for a moment
+    kResting,   ///< where it was seen last
+    kLost,      ///< it is not known where it is
   };
 
   /// Looks for the object that was at `position_px`, from the middle of the frame, `since_s` before
@@ -142,7 +142,7 @@ class FollowedObject {
   const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
                              double interval_s, const Background* background);
 
-  /// All objects have other ids.
+  /// After a cut, when all objects have new ids.
   void cut() {
     if (id_ != 0 && (rested_ || hidden_)) state_ = State::kLost;
   }
@@ -171,7 +171,7 @@ class FollowedObject {
   double since_s_ = 0;                                       ///< begin()
   double missing_s_ = 0;
   bool rested_ = false;                ///< when it was seen last
-  bool hidden_ = false;                ///< the same
+  bool hidden_ = false;                ///< when it was known last
   std::array<uint32_t, 32> before_{};  ///< ids in the previous frame
   size_t before_count_ = 0;
 };
@@ -205,7 +205,7 @@ class ObjectChoice {
   const FeelRule* rule_ = nullptr;  ///< of the previous frame
   bool seen_from_begin_ = false;    ///< the rule, see Chosen::State::kNotSeen
   FollowedObject ruled_;
-  bool missed_ = false;  ///< nothing was at the position of `ruled_`
+  bool missed_ = false;  ///< `ruled_` found nothing at its position
   BoxedObject boxed_;
   uint32_t best_ = 0;  ///< id of the object of kLargest or kFurthest; 0: none
   double best_missing_s_ = 0;

@@ -99,18 +99,18 @@ class NoForceReasonTest : public testing::Test {
   std::string message_reason() { return h->motions().back().no_force; }
 
   /// The film's reason, and nothing of the device.
-  void expect_everywhere(const std::string& limit) {
-    EXPECT_EQ(stats_field("no-force-reason"), limit);
-    EXPECT_EQ(message_reason(), limit);
+  void expect_everywhere(const std::string& reason) {
+    EXPECT_EQ(stats_field("no-force-reason"), reason);
+    EXPECT_EQ(message_reason(), reason);
     EXPECT_FALSE(stats_field("no-force-text").empty());
     EXPECT_EQ(h->motions().back().no_force_text, stats_field("no-force-text"));
     EXPECT_EQ(stats_field("device-no-force-reason"), "none");
     EXPECT_EQ(h->motions().back().device_no_force, "none");
   }
   /// Whatever the film shows.
-  void expect_of_device(const std::string& limit) {
-    EXPECT_EQ(stats_field("device-no-force-reason"), limit);
-    EXPECT_EQ(h->motions().back().device_no_force, limit);
+  void expect_of_device(const std::string& reason) {
+    EXPECT_EQ(stats_field("device-no-force-reason"), reason);
+    EXPECT_EQ(h->motions().back().device_no_force, reason);
     EXPECT_FALSE(stats_field("device-no-force-text").empty());
   }
 

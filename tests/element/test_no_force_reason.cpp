@@ -25,7 +25,7 @@ TEST_F(NoForceReasonTest, EachOfTheFilm) {
   struct Case {
     const char* properties;
     std::function<void()> show;
-    const char* limit;
+    const char* reason;
   };
   const Case cases[] = {
       {"motion=object", moves, "camera-only"},
@@ -40,13 +40,13 @@ TEST_F(NoForceReasonTest, EachOfTheFilm) {
       {"alpha=0.0001", moves, "too-weak"},  // eq. 15: 0.01 N at 50 px/s
   };
   for (const Case& each : cases) {
-    SCOPED_TRACE(std::string(each.properties) + ", " + each.limit);
+    SCOPED_TRACE(std::string(each.properties) + ", " + each.reason);
     frames = 0;
     open(std::string("device=sim ") + each.properties);
     play();
     each.show();
-    expect_everywhere(each.limit);
-    EXPECT_EQ(h->motions().back().repeated, each.limit == std::string("repeated-frames"));
+    expect_everywhere(each.reason);
+    EXPECT_EQ(h->motions().back().repeated, each.reason == std::string("repeated-frames"));
     EXPECT_FALSE(h->motions().front().repeated);
   }
 }

@@ -21,11 +21,11 @@ constexpr int64_t kFrame_ns = 40'000'000;
 TEST(NoForceReason, EachHasANickOfItsOwnAndASentence) {
   std::set<std::string> nicks;
   for (size_t i = 0; i < kNoForceReasons; ++i) {
-    const auto limit = static_cast<NoForceReason>(i);
-    EXPECT_TRUE(nicks.insert(nick(limit)).second) << nick(limit);
-    EXPECT_EQ(no_force_reason(nick(limit)), limit) << nick(limit);
-    if (limit == NoForceReason::kNone) continue;
-    EXPECT_EQ(sentence(limit)[std::strlen(sentence(limit)) - 1], '.') << nick(limit);
+    const auto reason = static_cast<NoForceReason>(i);
+    EXPECT_TRUE(nicks.insert(nick(reason)).second) << nick(reason);
+    EXPECT_EQ(no_force_reason(nick(reason)), reason) << nick(reason);
+    if (reason == NoForceReason::kNone) continue;
+    EXPECT_EQ(sentence(reason)[std::strlen(sentence(reason)) - 1], '.') << nick(reason);
   }
   EXPECT_STREQ(sentence(NoForceReason::kNone), "");
   EXPECT_STREQ(nick(NoForceReason::kVibration), "vibration");
@@ -89,8 +89,8 @@ TEST(NoForceReason, WhereNothingAgreesHowTheCameraMovesIsThat) {
 /// Frames of one reason, 40 ms apart.
 class Second {
  public:
-  Second& show(int count, NoForceReason limit, double force_N = 0) {
-    for (int i = 0; i < count; ++i) history.add(kFrame_ns * frames_++, force_N, limit);
+  Second& show(int count, NoForceReason reason, double force_N = 0) {
+    for (int i = 0; i < count; ++i) history.add(kFrame_ns * frames_++, force_N, reason);
     return *this;
   }
   NoForceReason reason() const { return history.reason(kFrame_ns * (frames_ - 1)); }
