@@ -3,14 +3,9 @@
 /// The tracker on a texture that moves by a known displacement.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
-#include <gtest/gtest.h>
-
 #include "core/points/tracker.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test {

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/track/exchange_formats.h"
+#include "tests/support/test.h"
 #include "tests/support/written_tracks.h"
 
 namespace spidar::test::ahap_test {

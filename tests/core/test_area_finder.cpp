@@ -2,20 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // Where the film is in pages, frames and windows of every kind, and that all of a film is found to
 // be all of it.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <optional>
 #include <ostream>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/picture/area_finder.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // How areas of a picture out of focus move, and what its plain parts and its border show.
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/field/areas.h"
 #include "core/motion/camera/border.h"
 #include "core/motion/camera/camera_choice.h"
 #include "tests/core/field_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::areas_test {

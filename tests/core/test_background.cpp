@@ -2,15 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // The model of the background from many votes; and whether few are its own, those of objects in
 // front of a plain one, or unknown.
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/field/block_kernels.h"
 #include "core/motion/camera/background.h"
 #include "point_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::background_test {
 namespace {

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Which blocks vote on the motion of the camera, and how much each vote counts.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/camera/block_votes.h"
 #include "tests/core/field_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::block_votes_test {

@@ -7,16 +7,11 @@
 // so the velocity to compare with is the exact mean (p(b) − p(a)) / (b − a). During a flight it
 // equals the velocity at the middle of the interval, because velocity is linear in time. With an
 // impact in the interval, it lies between the velocities before and after, and is exact as well.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/field/block_search.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::bouncing_ball_test {
 namespace {

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Of the objects that move, those that somebody else's boxes are around are felt.
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/choice/object_choice.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::boxed_object_test {
 namespace {

@@ -2,18 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // What is burned into a film does not move with a camera that pans: logos, subtitles, clocks, bars,
 // a still picture in the picture. It belongs to the screen and is felt by nobody.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/scene_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::burned_in_test {

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The rhythm in which a film shows new pictures, and the recognition of repeated ones.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/cadence.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::cadence_test {
 namespace {

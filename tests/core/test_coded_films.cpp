@@ -2,13 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Whether the camera moves, in films of which an encoder has left little but an object.
 // spidar-bench camera has more of them.
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/coded_film_score.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::coded_films_test {
 namespace {

@@ -2,16 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // Interlaced films that are not flagged as such are recognised by the combs of what moves between
 // two fields.
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/field/combing.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::combing_test {

@@ -2,15 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // A disc on a plain background after JPEG compression. Ringing around its rim makes corners in
 // small windows, but these stay with the blocks of the codec when the disc moves.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
-#include <Eigen/Core>
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::compressed_disc_test {
 namespace {

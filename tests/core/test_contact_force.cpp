@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/contact_force.h"
 #include "tests/support/tap.h"
+#include "tests/support/test.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Scenes with depth, and patterns that repeat, in which only the camera moves.
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/depth_clip.h"
 #include "tests/support/depth_clip_score.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::depth_clips_test {
 namespace {

@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/depth_picture.h"
 #include "tests/support/allocation_count.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::depth_picture_test {
 namespace {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <tuple>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/motion/objects/dominant_object.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::dominant_object_test {
 namespace {

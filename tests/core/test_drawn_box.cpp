@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The box to draw around an object moves as the object does, though blocks come and go at its rim.
-#include <algorithm>
-#include <random>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::drawn_box_test {

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/energy_budget.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::energy_budget_test {
 namespace {

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Whether the true velocity of an object is within the bound that comes with it.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <memory>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/objects/object_motion.h"
 #include "core/quantile.h"
 #include "tests/support/film_studio.h"
 #include "tests/support/motion_cases.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::error_bound_test {
 namespace {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Objects that show little of themselves: slow ones, small ones, and those that leave.
-#include <cmath>
-#include <functional>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/field_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::faint_objects_test {

@@ -2,16 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // Which points the tracker chooses. When a picture is shown twice, each one gives a point that
 // starts at the point.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <set>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/points/tracker.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::feature_selection_test {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a person writes of what is to be felt, and what is said of mistakes in it.
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/choice/feel_rules.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::feel_rules_test {
 namespace {

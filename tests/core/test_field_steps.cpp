@@ -2,19 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // The steps of the field of block motion, compared with their definitions: the vector code gives
 // the same bits, and a block of a moved picture is found where it came from.
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/field/block_field.h"
 #include "core/field/block_kernels.h"
 #include "core/field/block_search.h"
 #include "tests/core/field_film.h"
 #include "tests/core/plain_block_kernels.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::field_steps_test {

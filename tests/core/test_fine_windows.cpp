@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Windows of blocks are found in the frame to a few hundredths of a pixel of it.
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <numeric>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/field/fine_windows.h"
 #include "core/picture/reduced_frame.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::fine_windows_test {

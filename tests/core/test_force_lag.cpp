@@ -2,14 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // The force of a motion comes at the time of that motion. A disc circles, so that its velocity
 // turns, and its force is behind by an angle.
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/felt_film.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::force_lag_test {
 namespace {

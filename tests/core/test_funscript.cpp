@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/track/funscript.h"
+#include "tests/support/test.h"
 #include "tests/support/written_tracks.h"
 
 namespace spidar::test::funscript_test {

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <limits>
-#include <random>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "core/force/gain_controller.h"
 #include "core/motion/image_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::gain_controller_test {
 namespace {

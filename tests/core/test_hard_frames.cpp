@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Frames from which no motion can be determined: points and field report exactly none.
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/motion_estimator.h"
 #include "core/points/tracker.h"
 #include "tests/support/motion_cases.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::hard_frames_test {
 namespace {

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <limits>
-#include <random>
-#include <stdexcept>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/height_field.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::height_field_test {
 namespace {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <limits>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/image_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::image_motion_test {
 namespace {

@@ -2,16 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // What is felt of an object that has most of the picture, as a face or an animal that the camera
 // follows from near by.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/camera/border.h"
 #include "tests/core/field_film.h"
 #include "tests/support/scene_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::large_object_test {

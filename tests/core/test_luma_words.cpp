@@ -2,16 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Frames of more than 8 bits: the vector code gives the bits of the plain one, and both those of
 // the same picture in bytes.
-#include <cmath>
-#include <cstdint>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/picture/luma.h"
 #include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/word_picture.h"
 
 namespace spidar::test::luma_words_test {

@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A still picture around a film is no background in front of which the film moves.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/layers/burned_in.h"
 #include "tests/support/scene_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::margins_test {

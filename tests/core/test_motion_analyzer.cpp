@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/core/moving_texture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motion_analyzer_test {
 namespace {

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/gain_controller.h"
 #include "core/force/motion_filter.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motion_filter_test {
 namespace {

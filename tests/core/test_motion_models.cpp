@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/camera/motion_models.h"
 #include "point_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motion_models_test {
 namespace {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motion_rendering_test {
 namespace {

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The motion that is felt in rendered scenes of known motion: a camera, and discs in front of it.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/force_renderer.h"
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motion_scenes_test {
 namespace {

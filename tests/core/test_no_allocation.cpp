@@ -2,14 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // The motion of a frame is found without allocating, whatever the scene. Ticks of the loop are in
 // tests/spidar/test_random_safety.cpp.
-#include <algorithm>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/motion_estimator.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::no_allocation_test {
 namespace {

@@ -2,17 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Of several objects, the one that a person chose is felt, for as long as anybody knows where it
 // is.
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/choice/object_choice.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::object_choice_test {
 namespace {

@@ -2,20 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 // An object keeps its id while it is in view, meets others or is hidden, and loses it when it has
 // gone.
-#include <cmath>
-#include <functional>
-#include <map>
-#include <set>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/objects/object_tracker.h"
 #include "tests/core/field_film.h"
 #include "tests/support/picture.h"
 #include "tests/support/scene_film.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::object_identity_test {

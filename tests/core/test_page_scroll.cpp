@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A page that scrolls is no camera, and a camera is no page that scrolls.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <random>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/picture/page_scroll.h"
 #include "tests/support/coded_film.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::page_scroll_test {

@@ -2,15 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // The steps that make a small picture of a frame, compared with their definitions: the vector code
 // gives the same bits.
-#include <cstdint>
-#include <random>
-#include <stdexcept>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/picture/padded_image.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::picture_steps_test {
 namespace {

@@ -2,14 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Which of several objects is felt, depending on the pointer, and what is kept when another motion
 // is selected.
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/motion/motion_estimator.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::pointer_test {
 namespace {

@@ -2,14 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // One string with wrong counts while the grip moves: the fault is noticed, attributed and
 // tolerated.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/grip/pose_solver.h"
 #include "tests/support/string_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::pose_faults_test {
 namespace {

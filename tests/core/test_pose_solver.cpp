@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <limits>
-#include <random>
-#include <stdexcept>
-
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "core/grip/pose_solver.h"
 #include "tests/support/string_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::pose_solver_test {
 namespace {

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/relief.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::relief_test {
 namespace {

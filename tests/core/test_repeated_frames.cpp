@@ -3,18 +3,9 @@
 // Films whose frames repeat pictures are felt like the plain film: 24 pictures a second in 25, 30
 // and 60 frames, five in six frames (as 25 in 30 are), drawn on twos and threes, with late frames;
 // in a player, which knows the next frames, and live. A picture at rest gives no force.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <functional>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/felt_film.h"
 #include "tests/support/film_studio.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::repeated_frames_test {
 namespace {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Which frames repeat the previous picture: with the same pixels, or changed by coding.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstdlib>
-#include <functional>
 #include <numeric>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/picture/repeated_picture.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::repeated_picture_test {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What tells an object from a layer of the scene, and how much it stands out.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/layers/regions.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::salience_test {
 namespace {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "core/grip/matrices.h"
 #include "tests/support/string_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::singular_values_test {
 namespace {

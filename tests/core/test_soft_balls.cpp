@@ -2,15 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // A ball out of focus bounces in front of a wall. Its blocks have hardly any texture, but their
 // pixels fit its own motion better than rest.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::soft_balls_test {
 namespace {

@@ -2,15 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // Scenes in which little shows how the camera moves: whether what moves there is the camera or an
 // object.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "tests/support/picture.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::sparse_scenes_test {

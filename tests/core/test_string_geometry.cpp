@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <gtest/gtest.h>
-
 #include "core/grip/string_geometry.h"
 #include "tests/support/string_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::string_geometry_test {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The tension solver on hard problems, see tension_cases.h.
-#include <gtest/gtest.h>
-
 #include "core/grip/tension_solver.h"
 #include "tension_reference.h"
 #include "tests/support/tension_cases.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::tension_hard_test {
 namespace {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "core/grip/tension_solver.h"
 #include "tension_reference.h"
 #include "tests/support/tension_cases.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::tension_solver_test {
 namespace {

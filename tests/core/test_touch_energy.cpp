@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A surface that stands still gives a hand no more energy than it got from it.
-#include <algorithm>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/tap.h"
+#include "tests/support/test.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
 

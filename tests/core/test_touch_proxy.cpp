@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/proxy.h"
+#include "tests/support/test.h"
 #include "tests/support/touch_surfaces.h"
 
 namespace spidar::test::touch_proxy_test {

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/track/track_reader.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::track_reader_test {
 namespace {

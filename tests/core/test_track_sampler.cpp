@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-#include <cstring>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/track/track_format.h"
 #include "core/track/track_sampler.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::track_sampler_test {
 namespace {

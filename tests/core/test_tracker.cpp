@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The tracker on frames with a known motion.
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <stdexcept>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/moving_texture.h"
 #include "tests/support/ball_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::tracker_test {
 namespace {

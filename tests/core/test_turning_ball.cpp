@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Roll and growth of balls that turn, grow, or do neither, from what the pixels determine of them.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/motion/objects/turn_meter.h"
+#include "tests/support/test.h"
 #include "tests/support/turning_ball.h"
 
 namespace spidar::test::turning_ball_test {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cstdint>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/force_renderer.h"
 #include "core/wrench.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wrench_fade_test {
 namespace {

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/timeline_frames.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wrench_timeline_test {
 namespace {

@@ -2,14 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // The curve through frames at random times is exact, smooth, and never outside the range of its
 // ends.
-#include <algorithm>
-#include <cmath>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/core/timeline_frames.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wrench_timeline_random_test {
 namespace {

@@ -3,19 +3,14 @@
 /// spidarextract on its own: frames with the meta of spidarmotion in, samples out.
 #pragma once
 
-#include <cmath>
-#include <cstring>
-#include <string>
-#include <vector>
-
 #include <gst-spidar/gstspidarmotionmeta.h>
 #include <gst/check/gstharness.h>
-#include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
 #include "plugin/filter/reports/motion_meta.h"
 #include "plugin/tracks/track_elements.h"
 #include "plugin/tracks/track_stream.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

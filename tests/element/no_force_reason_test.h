@@ -3,17 +3,10 @@
 /// An element on the simulated device that is asked why nothing is felt.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // exit() while frames are analysed.
-#include <atomic>
-#include <chrono>
-#include <cstdlib>
-#include <thread>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include "plugin/filter/analysis_permit.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::analysis_permit_test {
 namespace {

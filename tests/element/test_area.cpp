@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The film in a part of the picture: it is felt as if it were alone, and shown where it is.
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/frame/object_metas.h"
 #include "plugin/properties/motion_properties.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 #include "tests/support/video_frames.h"
 

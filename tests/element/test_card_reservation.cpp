@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// A sound card is asked for on a bus of its own, where another one has it, or nobody.
-#include <atomic>
-#include <cstring>
 #include <gio/gio.h>
-#include <memory>
-#include <string>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include "plugin/device/card_reservation.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::card_reservation_test {
 namespace {

@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The device while the video plays: it may fail and return, and is always brought to rest.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::device_test {

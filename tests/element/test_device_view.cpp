@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a window sees of the device.
-#include <algorithm>
-#include <memory>
-
-#include <gtest/gtest.h>
-
 #include "plugin/device/device_view.h"
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::device_view_test {

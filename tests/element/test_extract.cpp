@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarextract: frames with the meta of spidarmotion in, a track out.
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/element/extract_harness.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::extract_test {
 namespace {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Where the samples of spidarextract lie in time, whatever segments and time stamps the film has.
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/element/extract_harness.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::extract_time_test {
 namespace {

@@ -3,18 +3,14 @@
 // The filter that spidar-feel gives a player, and what another thread does at the worst moment.
 // This program has functions of GStreamer of its own, which let a test act in between. The thread
 // that would do so is the test's own, so no time plays a part.
-#include <algorithm>
 #include <dlfcn.h>
-#include <functional>
-#include <string>
-#include <utility>
 
 #include <gst/gst.h>
-#include <gtest/gtest.h>
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/filter/engine/stream_orientation.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace {

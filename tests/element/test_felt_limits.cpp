@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Why little is felt of what the film or the picture would give: vibration, and touch.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
 #include "spidar/limits/vibration_budget.h"
 #include "tests/element/no_force_reason_test.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::felt_limits_test {
 namespace {

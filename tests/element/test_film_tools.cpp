@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // How long a file is awaited.
-#include <fstream>
-#include <stdexcept>
-#include <string>
-
 #include <gst/gst.h>
-#include <gtest/gtest.h>
 
 #include "plugin/films/file_pipeline.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::film_tools_test {
 namespace {

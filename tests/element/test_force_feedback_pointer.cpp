@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // pointer=grip with a joystick, whose stick is the grip.
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::force_feedback_pointer_test {

@@ -6,17 +6,11 @@
 //
 // SPIDAR_SEED is the seed (default 1), SPIDAR_FILMS the number of films of three frames (default
 // 60).
-#include <algorithm>
-#include <cstdlib>
-#include <cstring>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/picture/luma.h"
 #include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/guarded_frame.h"
+#include "tests/support/test.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The analysis of a frame as JSON, read back by an independent parser.
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/analysis/motion_analyzer.h"
 #include "plugin/filter/reports/frame_trace.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::frame_trace_test {
 namespace {

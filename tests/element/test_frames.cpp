@@ -1,18 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // How the element treats frames: formats, strides, crops and fields; frames are not modified.
-#include <array>
-#include <cmath>
-#include <cstring>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/filter/motion_state.h"
 #include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 

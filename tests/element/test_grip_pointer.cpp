@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The position in the picture at which the grip points.
-#include <optional>
-
-#include <gtest/gtest.h>
-
 #include "plugin/frame/touch_view.h"
 #include "plugin/properties/motion_properties.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::grip_pointer_test {
 namespace {

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A track that is longer than what is read ahead of it, played by seeks and backwards.
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <gst/gst.h>
-#include <gtest/gtest.h>
 
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
@@ -19,6 +9,7 @@
 #include "plugin/tracks/track_loader.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/wav_track.h"
 
 namespace spidar::test::long_track_test {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The meta on a frame, read as a C program reads it.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <gst-spidar/gstspidarmotionmeta.h>
-#include <gtest/gtest.h>
 
 #include "plugin/filter/reports/motion_meta.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 extern "C" {

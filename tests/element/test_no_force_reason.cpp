@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Why nothing is felt: each reason in the message, in the stats and in the trace.
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/element/no_force_reason_test.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::no_force_reason_test {
 namespace {

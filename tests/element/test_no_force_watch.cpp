@@ -2,16 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // Reasons why there is no force, without an element: their texts, and which of them a frame and a
 // second of frames have.
-#include <cstring>
-#include <set>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/analysis/motion_analyzer.h"
 #include "core/force/motion_rendering.h"
 #include "core/motion/camera/background.h"
 #include "plugin/reasons/no_force.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::no_force_watch_test {
 namespace {

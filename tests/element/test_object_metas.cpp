@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The objects on a frame, as elements of other projects read them.
-#include <cmath>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <gst-spidar/gstspidarobjectmeta.h>
 #include <gst/video/video.h>
-#include <gtest/gtest.h>
 
 #include "plugin/frame/object_metas.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 extern "C" GArray* read_objects_in_c(GstBuffer* buffer);

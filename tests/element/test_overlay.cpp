@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The overlay in the video, read back from the pixels.
-#include <limits>
-#include <string>
 #include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "plugin/overlay/arrow.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 

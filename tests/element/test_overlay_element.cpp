@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The element with its overlay: which frames it draws into, and when.
-#include <gtest/gtest.h>
-
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::overlay_element_test {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The motion of a film in 2D+Z is that of the half that is picture.
-#include <algorithm>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include <gst-spidar/gstspidarmotionmeta.h>
-#include <gtest/gtest.h>
 
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::packed_film_test {

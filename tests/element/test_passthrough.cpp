@@ -2,14 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Without the overlay frames are only read: the output buffers are the input buffers, and queries
 // for downstream are answered by downstream.
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/element/watched_memory.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::passthrough_test {

@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The same film, stored with pixels that are not square, feels the same.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/force/gain_controller.h"
 #include "core/force/motion_rendering.h"
 #include "plugin/frame/frame_luma.h"
 #include "plugin/frame/object_metas.h"
 #include "tests/support/canvas.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 #include "tests/support/video_frames.h"
 

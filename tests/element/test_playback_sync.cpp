@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Which running time is on the screen at a given time of the haptic loop's clock.
-#include <cmath>
-#include <memory>
-#include <random>
-
 #include <gst/check/gsttestclock.h>
-#include <gtest/gtest.h>
 
 #include "plugin/timing/playback_sync.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::playback_sync_test {
 namespace {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // To which object each point belongs.
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/frame/point_owners.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::point_owners_test {
 namespace {

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The filter of spidar-feel and frames in GPU memory, by Mesa's renderer in software.
-#include <algorithm>
-#include <string>
-#include <vector>
-
 #include <gst/gst.h>
-#include <gtest/gtest.h>
 
 #include "plugin/feel/feel_bin.h"
 #include "plugin/gobject/ref.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::small_copy_test {
 namespace {

@@ -2,13 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Timestamps, segments and discontinuities: motion is measured over running time, and only between
 // two frames that are shown in succession.
-#include <algorithm>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::time_test {

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Reliefs of frames, and how what is touched moves.
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/filter/touch/relief_stream.h"
 #include "plugin/gobject/structure_fields.h"
 #include "spidar/devices/sim/simulated_device.h"
@@ -14,6 +9,7 @@
 #include "spidar/profiles/profile.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::touch_test {

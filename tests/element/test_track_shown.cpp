@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A film whose force is that of a haptic track is shown like one that is analysed.
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include <gst-spidar/gstspidarmotionmeta.h>
-#include <gtest/gtest.h>
 
 #include "core/track/track_format.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 #include "tests/support/wav_track.h"
 

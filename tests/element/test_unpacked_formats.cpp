@@ -2,12 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 // Formats that the element does not read in place: packed YUV of cameras, planar RGB, packed words
 // of 10 and 12 bits. The measured motion is that of the grey picture.
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "plugin/frame/frame_luma.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_formats.h"
 #include "tests/support/video_frames.h"
 

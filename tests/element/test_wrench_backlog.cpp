@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Wrenches that wait until the haptic loop has room for them.
-#include <gtest/gtest.h>
-
 #include "plugin/timing/loop_queue.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::wrench_schedule_test {

@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What examples/play says and draws of a playback.
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <sstream>
-#include <string>
-#include <vector>
-
 #include <gst/gst.h>
-#include <gtest/gtest.h>
 
 #include "examples/play/picture.h"
 #include "examples/play/record.h"
@@ -19,6 +9,7 @@
 #include "plugin/films/part_file.h"
 #include "plugin/tools/gnuplot.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace {
 

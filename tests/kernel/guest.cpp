@@ -2,11 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// The only program of the virtual machine: sets up a Linux with a virtual USB host controller, and
 /// runs the tests in it. Its root file system contains only the files that run_guest.py puts there.
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <fcntl.h>
-#include <string>
 #include <sys/io.h>
 #include <sys/mount.h>
 #include <sys/stat.h>
@@ -14,10 +10,9 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include "spidar/session/device_factory.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace {
 

@@ -2,12 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// device=ff through a real kernel's evdev, on devices made by uinput. Waits for events; times are
 /// those of the virtual machine, which counts instructions.
-#include <cmath>
 #include <csignal>
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/force_feedback/board.h"
 #include "spidar/devices/force_feedback/stick_effects.h"
@@ -15,6 +10,7 @@
 #include "tests/kernel/uinput_device.h"
 #include "tests/support/child_process.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::kernel_evdev_test {
 namespace {

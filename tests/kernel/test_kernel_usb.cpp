@@ -2,20 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 /// The driver and an emulated board, connected through a real kernel's USB. Waits for events, never
 /// for a fixed time.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <string>
-#include <thread>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/cyverse/board.h"
 #include "spidar/grip/tension_command.h"
@@ -27,6 +15,7 @@
 #include "tests/kernel/usbip_board.h"
 #include "tests/support/child_process.h"
 #include "tests/support/recorded_motors.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::kernel_usb_test {
 namespace {

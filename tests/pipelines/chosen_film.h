@@ -3,19 +3,13 @@
 /// Three discs that a person chooses from.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <gst/check/gstharness.h>
-#include <gtest/gtest.h>
 
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/moving_scene.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {

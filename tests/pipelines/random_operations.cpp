@@ -2,10 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/pipelines/random_operations.h"
 
-#include <chrono>
-#include <thread>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

@@ -3,15 +3,8 @@
 /// A moving ball in a SteppedPipeline, and a check that the force matches the shown motion.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/stepped_pipeline.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A detector before the element chooses by its boxes what is felt.
-#include <string>
-#include <vector>
-
 #include <gst/video/video.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/chosen_film.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::boxes_test {
 namespace {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a person chooses in a player: by the mouse in its window, and by rules.
-#include <fstream>
-#include <string>
-#include <vector>
-
 #include <gst/video/navigation.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/chosen_film.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::choice_test {
 namespace {

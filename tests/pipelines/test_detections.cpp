@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Boxes of GStreamer's analytics library, before the element and behind it.
-#include <map>
-#include <string>
-
 #include <gst/analytics/analytics.h>
 #include <gst/video/video.h>
-#include <gtest/gtest.h>
 
 #include "plugin/frame/object_metas.h"
 #include "tests/pipelines/chosen_film.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::detections_test {
 namespace {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Several devices in one pipeline and in one process, each with a force of its own. On test clocks.
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "plugin/filter/spidar_motion.h"
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::devices_test {
 namespace {

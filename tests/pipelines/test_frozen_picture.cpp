@@ -2,11 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // A picture that stays on the screen for long is not felt, and the force always belongs to the
 // frame that is shown. On a test clock; TickWatch also checks every tick.
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::frozen_picture_test {
 namespace {

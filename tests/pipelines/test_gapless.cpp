@@ -2,17 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // One film after another without a gap: the second one arrives while frames of the first one are
 // still waiting for the screen. On a test clock; every tick is checked.
-#include <algorithm>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/filter/motion_state.h"
 #include "plugin/filter/spidar_motion.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/wav_track.h"
 
 namespace spidar::test::gapless_test {

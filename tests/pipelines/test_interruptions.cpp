@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Interruptions of a film: pauses, frame steps, new clocks, new latencies. On a test clock.
-#include <string>
-
 #include <gst/app/gstappsrc.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/shown_motion.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::interruptions_test {

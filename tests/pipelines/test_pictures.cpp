@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Contents of films: a flash, a dissolve, rotated pictures. On a test clock.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include <gst/app/gstappsrc.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 #include "tests/support/texture.h"
 
 namespace spidar::test::pictures_test {

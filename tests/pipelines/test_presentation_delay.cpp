@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Delays of the picture after the element delay the force equally. On a test clock.
-#include <string>
-
 #include <gst/base/gstbasesink.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::presentation_delay_test {
 namespace {

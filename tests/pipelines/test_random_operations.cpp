@@ -5,15 +5,8 @@
 //
 // SPIDAR_OPERATIONS is the number of operations (default 300), SPIDAR_SEED the seed (default 1).
 // The same seed gives the same operations and pauses; the interleaving of the threads differs.
-#include <chrono>
-#include <cstdio>
-#include <cstdlib>
-#include <string>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/random_operations.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::random_operations_test {
 namespace {

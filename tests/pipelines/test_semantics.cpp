@@ -2,15 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 // Operations on a player and properties of streams: the force is that of the shown motion, at the
 // time when it is shown. On a test clock; TickWatch also checks every tick.
-#include <atomic>
 #include <future>
-#include <string>
-#include <vector>
 
 #include <gst/app/gstappsrc.h>
-#include <gtest/gtest.h>
 
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::semantics_test {

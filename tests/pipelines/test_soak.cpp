@@ -4,16 +4,11 @@
 //
 // SPIDAR_HOURS is the duration of video on a stepped clock (default 0.03), SPIDAR_MINUTES that in
 // real time (default 0.01); `meson test --suite soak` runs a day and half an hour.
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
 #include <malloc.h>
-#include <string>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::soak_test {
 namespace {

@@ -2,12 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // The wrench of a frame acts at the moment at which the frame is shown. On a test clock, so nothing
 // depends on the speed of the machine.
-#include <algorithm>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/shown_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::synchronisation_test {
 namespace {

@@ -2,17 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 // Touching the picture: whole pipelines on a test clock, with the simulated device whose hand the
 // test moves. TickWatch also checks every tick.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include <gst/video/video.h>
-#include <gtest/gtest.h>
 
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/frame/touch_view.h"
 #include "tests/pipelines/touched_pipeline.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::touch_test {
 namespace {

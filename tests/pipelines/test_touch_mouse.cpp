@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The mouse in the window of a video sink is the finger of the simulated device.
-#include <string>
-
 #include <gst/video/navigation.h>
-#include <gtest/gtest.h>
 
 #include "plugin/frame/touch_view.h"
 #include "tests/pipelines/touched_pipeline.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::touch_mouse_test {
 namespace {

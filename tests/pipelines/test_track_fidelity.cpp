@@ -2,21 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // Compares the strings of the simulated device during a recorded track with those during the
 // analysis of the film. On a test clock; every tick is checked.
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <map>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/track_elements.h"
 #include "spidar/profiles/profile.h"
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/pipelines/stepped_track.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::track_fidelity_test {
 namespace {

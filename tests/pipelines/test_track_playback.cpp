@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarsink with tracks. On a test clock; every tick is checked.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/tracks/track_tags.h"
 #include "tests/pipelines/stepped_track.h"
+#include "tests/support/test.h"
 #include "tests/support/wav_track.h"
 
 namespace spidar::test::track_playback_test {

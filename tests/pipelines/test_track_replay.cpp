@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarmotion with a track instead of its analysis. On a test clock; every tick is checked.
-#include <cmath>
-#include <fstream>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "tests/pipelines/stepped_pipeline.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/wav_track.h"
 
 namespace spidar::test::track_replay_test {

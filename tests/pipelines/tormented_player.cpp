@@ -2,13 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/pipelines/tormented_player.h"
 
-#include <filesystem>
 #include <string_view>
-
-#include <gtest/gtest.h>
 
 #include "plugin/filter/spidar_motion.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

@@ -3,15 +3,9 @@
 /// The boards that there are, as parameters of tests.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/device_registry.h"
 #include "spidar/link/emulated_transport.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

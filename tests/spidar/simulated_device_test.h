@@ -3,12 +3,9 @@
 /// Shared by the tests of the simulated device.
 #pragma once
 
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

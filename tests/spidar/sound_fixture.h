@@ -3,26 +3,12 @@
 /// For tests of sound cards.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cstdint>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sound/packets.h"
 #include "spidar/session/device_factory.h"
 #include "tests/support/emulated_card.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

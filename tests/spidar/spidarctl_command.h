@@ -3,13 +3,10 @@
 /// spidarctl as a user sees it: exit status, messages, files.
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <unistd.h>
 
-#include <gtest/gtest.h>
-
 #include "tests/support/shell.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

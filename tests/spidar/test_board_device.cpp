@@ -2,17 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 // A single board, and the code around boards: the device that waits for the link, the factory, and
 // the simulated device behind a board's packets.
-#include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
-
-#include <gtest/gtest.h>
 
 #include "examples/example_board.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::board_device_test {
 namespace {

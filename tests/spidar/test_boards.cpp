@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Every kind of board with its emulation, without a wire.
-#include <cmath>
 #include <condition_variable>
-#include <limits>
 #include <mutex>
-
-#include <gtest/gtest.h>
 
 #include "spidar/grip/string_grip.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::boards_test {
 namespace {

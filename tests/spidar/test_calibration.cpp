@@ -2,14 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Results of calibrate(), and the cases that it must refuse.
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "tests/spidar/calibration_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::calibration_test {
 

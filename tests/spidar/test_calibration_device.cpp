@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // From a device through calibration and a profile file to the loop.
-
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <stdexcept>
-#include <string>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/calibration/samples.h"
 #include "spidar/devices/sim/simulated_device.h"
@@ -18,6 +10,7 @@
 #include "spidar/profiles/profile_file.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/fake_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::calibration_device_test {
 

@@ -2,14 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Messages of the calibration for unusable input.
 
-#include <functional>
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/spidar/calibration_samples.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::calibration_input_test {
 

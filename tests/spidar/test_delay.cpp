@@ -1,15 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The lag of a simulated device's drives, measured through the loop, the D/A and the encoders.
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <memory>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "spidar/link/link_thread.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/stiffness_limit.h"
@@ -18,6 +9,7 @@
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/kinds.h"
 #include "tests/support/tampered_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::delay_test {
 namespace {

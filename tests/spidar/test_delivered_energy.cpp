@@ -2,16 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // What a hand gets from strings that give less, or elsewhere, than a surface or a passive callback
 // asks for: no energy that it has not put in.
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
 #include "core/touch/relief.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/let_go_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::delivered_energy_test {
 namespace {

@@ -2,10 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 /// The force and the torque that a hand gets, compared with the limits: the simulated device's
 /// truth, not what the loop believes.
-#include <cstdlib>
-
-#include <gtest/gtest.h>
-
 #include "core/grip/string_geometry.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/string_grip.h"
@@ -15,6 +11,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::delivered_limit_test {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The signs of encoders from moves of the grip by a hand that misses distance and direction.
-#include <algorithm>
-#include <random>
-
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "spidar/selftest/encoder_signs.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::encoder_signs_test {
 namespace {

@@ -3,13 +3,6 @@
 /// Drivers of force-feedback devices that fail, hang or report nonsense, and forces that no device
 /// can give: on emulated input devices, through the same calls as real ones.
 #include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/force_feedback/board.h"
 #include "spidar/devices/force_feedback/evdev_transport.h"
@@ -18,6 +11,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::evdev_faults_test {
 namespace {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Packets of the Novint Falcon, written by hand from the published description.
-#include <algorithm>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/falcon/packets.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::falcon_test {
 namespace {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The grip of a Novint Falcon: its arms, its room, and its zero.
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::falcon_grip_test {
 namespace {

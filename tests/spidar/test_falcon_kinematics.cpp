@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The arms of the Novint Falcon, against the lengths of their parts over the whole workspace.
-#include <cmath>
-#include <limits>
-#include <random>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/falcon/kinematics.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::falcon_kinematics_test {
 namespace {

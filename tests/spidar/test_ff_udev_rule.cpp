@@ -2,17 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 /// The udev rule gives access to the devices of device=ff, and to no other input devices.
 #include <fcntl.h>
-#include <filesystem>
 #include <fnmatch.h>
-#include <fstream>
 #include <regex>
-#include <string>
 #include <unistd.h>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::ff_udev_rule_test {
 namespace {

@@ -2,13 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 /// Joysticks, wheels and gamepads on emulated input devices, through the same calls as real ones.
 #include <cerrno>
-#include <cmath>
-#include <filesystem>
-#include <string>
-#include <thread>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/realtime/monotonic.h"
@@ -19,6 +12,7 @@
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::force_feedback_test {
 namespace {

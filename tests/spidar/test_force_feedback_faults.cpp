@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Drivers of force-feedback devices that are slow, hang, or fail now and then.
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <linux/input.h>
-#include <memory>
 #include <sched.h>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/force_feedback/evdev_transport.h"
 #include "spidar/devices/force_feedback/stick_effects.h"
@@ -24,6 +12,7 @@
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::force_feedback_faults_test {
 namespace {

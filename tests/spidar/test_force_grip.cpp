@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Devices that take a force: every kind with its emulation, without a wire, and the grip on them.
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/grip/string_geometry.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::force_grip_test {
 namespace {

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The simulated grip compared with closed-form solutions, and its stability for every profile.
-
-#include <algorithm>
-#include <cmath>
 #include <complex>
-#include <stdexcept>
-#include <string>
-#include <utility>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "spidar/devices/sim/grip_model.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::grip_model_test {
 

@@ -2,19 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 /// Motors go to zero when the process that drives them is killed: another instance of this program,
 /// with a device, and a file in which it reports that it pulls.
-#include <atomic>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <cstring>
-#include <string>
 #include <sys/time.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/link/link_thread.h"
 #include "spidar/session/board_list.h"
@@ -27,6 +19,7 @@
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/recorded_motors.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

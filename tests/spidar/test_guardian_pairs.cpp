@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Two faults at once: of the player, its guardian, the board, and the control group of the player.
-#include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <optional>
 #include <spawn.h>
-#include <stdexcept>
-#include <string>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
-#include <utility>
-
-#include <gtest/gtest.h>
 
 #include "spidar/guardian/guardian.h"
 #include "spidar/link/link_thread.h"
@@ -30,6 +17,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::guardian_pairs_test {
 namespace {

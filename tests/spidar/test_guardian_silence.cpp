@@ -2,15 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 /// A host that lives and says nothing: whether its guardian acts depends on what the board was told
 /// last.
-#include <chrono>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/link/link_thread.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

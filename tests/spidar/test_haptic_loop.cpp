@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Which force acts when: playback, flush, limits.
-#include <array>
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/limits/released_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/tampered_device.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::haptic_loop_test {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The loop and its device: opening, closing, losing it, and the pose of the grip.
-#include <cmath>
-#include <random>
-
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::haptic_loop_device_test {
 namespace {

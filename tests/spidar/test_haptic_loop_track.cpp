@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The force of a track's samples in the haptic loop.
-#include <cmath>
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::haptic_loop_track_test {

@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Loop, thread and trace together. Waits for events, never for a fixed time.
-#include <chrono>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <set>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/loop/loop_thread.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/support/fake_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::haptic_session_test {
 namespace {

@@ -4,15 +4,6 @@
 /// and speed, and how long they last, by the simulated device's truth. Short by default;
 /// SPIDAR_TICKS=10000000 is the long run (--suite hazards), which prints the table of
 /// docs/strings.md. SPIDAR_SEED selects another seed, SPIDAR_SHOW=1 prints every round.
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <map>
-#include <memory>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/loop/haptic_loop.h"
@@ -21,6 +12,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/rest_force.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::hazards_test {
 namespace {

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <filesystem>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/install_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::install_folder_test {
 namespace {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Messages of the Inverse Service, written by hand from the published examples.
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/inverse3/packets.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::inverse3_test {
 namespace {

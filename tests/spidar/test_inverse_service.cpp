@@ -3,14 +3,7 @@
 /// The Inverse3 through a real WebSocket, on a service of this computer.
 ///
 /// The process that is killed is another instance of this program.
-#include <algorithm>
 #include <csignal>
-#include <cstdlib>
-#include <cstring>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/monotonic.h"
@@ -20,6 +13,7 @@
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The lag of a drive from a response that is known exactly.
-#include <cmath>
 #include <complex>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/selftest/lag_fit.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::lag_fit_test {
 namespace {

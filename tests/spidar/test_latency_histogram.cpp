@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <gtest/gtest.h>
-
 #include "spidar/realtime/latency_histogram.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::latency_histogram_test {
 namespace {

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A hand that is led to a position, and what the grip of a simulated device makes of it.
-#include <limits>
-#include <random>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/grip_model.h"
 #include "tests/spidar/simulated_device_test.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::led_hand_test {
 namespace {

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// In a player of a country with decimal commas, what programs read and write has decimal points.
-#include <array>
 #include <clocale>
-#include <cstdio>
-#include <cstdlib>
 #include <locale>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/choice/feel_rules.h"
 #include "core/fields.h"
@@ -19,6 +13,7 @@
 #include "spidar/profiles/profile_file.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::locale_test {
 namespace {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// A device that renders late gets wrenches early, as far as the film is known ahead.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include <gtest/gtest.h>
-
 #include "spidar/loop/loop_schedule.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::look_ahead_test {
 namespace {

@@ -2,14 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 /// The loop when something fails: a lost pose, a broken string, failed exchanges; and a device that
 /// is not used.
-#include <array>
-#include <cmath>
-#include <random>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
@@ -17,6 +9,7 @@
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::loop_faults_test {
 namespace {

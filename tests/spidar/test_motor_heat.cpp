@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "spidar/grip/tension_command.h"
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::motor_heat_test {
 namespace {

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Numbers and messages become texts as long as they are.
-#include <cstdint>
-#include <limits>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/number_text.h"
 #include "spidar/text.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::number_text_test {
 namespace {

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/text.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::printable_test {
 namespace {

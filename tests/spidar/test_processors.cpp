@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // As many films at a time as a control group has time for.
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/realtime/processors.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::processors_test {
 namespace {

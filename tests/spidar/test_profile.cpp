@@ -1,19 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // load_profile(): where it finds profiles, and its messages for unusable files.
-
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
 #include <unistd.h>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace fs = std::filesystem;
 namespace spidar::test::profile_test {

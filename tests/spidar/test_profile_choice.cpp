@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarctl on real boards, on an emulated bus: no motor pulls before somebody has named a profile.
-#include <cstdio>
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
-#include <sstream>
-#include <string>
-#include <thread>
 #include <tuple>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/selftest/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
@@ -19,6 +9,7 @@
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace fs = std::filesystem;
 

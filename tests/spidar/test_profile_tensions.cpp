@@ -2,12 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 // Tensions for every shipped profile, from the centre to outside the frame.
 #include <cctype>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "profile_tension_cases.h"
 #include "tests/core/tension_reference.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::profile_tensions_test {
 namespace {

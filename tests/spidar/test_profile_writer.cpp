@@ -1,21 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // load_profile() reads back exactly what save_profile() has written.
-
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/device_registry.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/whole_file.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace fs = std::filesystem;
 namespace spidar::test::profile_writer_test {

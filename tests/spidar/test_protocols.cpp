@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Packets of the boards, written by hand from the published descriptions.
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <cstring>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/cyverse/packets.h"
 #include "spidar/devices/force_feedback/packets.h"
 #include "spidar/devices/mouse/packets.h"
 #include "spidar/devices/uart/packets.h"
 #include "spidar/guardian/guardian.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::protocols_test {
 namespace {

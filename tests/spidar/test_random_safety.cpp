@@ -4,17 +4,6 @@
 /// tick takes anything from the heap. Short
 /// by default; SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED selects another
 /// seed, SPIDAR_ROUND the first round of it.
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
-#include <memory>
-#include <string>
-#include <utility>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
@@ -23,6 +12,7 @@
 #include "tests/support/random_motion.h"
 #include "tests/support/seam_watch.h"
 #include "tests/support/tampered_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::random_safety_test {
 namespace {

@@ -4,21 +4,12 @@
 /// gets, and how hard it meets the frame, by the simulated device's truth. Short by default;
 /// SPIDAR_FILMS=24000 is the long run
 /// (--suite hazards), which takes another seed each time. It is printed; SPIDAR_SEED repeats one.
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <future>
-#include <random>
-#include <sstream>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/limits/released_grip.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::released_films_test {
 namespace {

@@ -2,16 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 /// What a film does to a grip that nobody holds, and that a hand which holds it notices nothing.
 /// All speeds, blows and forces are the simulated device's truth.
-#include <cmath>
-#include <cstdio>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/grip/grip_motion.h"
 #include "spidar/loop/brake_table.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::released_grip_test {
 namespace {

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "spidar/grip/tension_command.h"
 #include "spidar/limits/force_limits.h"
 #include "spidar/limits/wrench_limits.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::safety_test {
 namespace {

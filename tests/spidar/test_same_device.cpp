@@ -2,18 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 /// A device that is lost comes back only as itself: no force goes to another one that its name
 /// means by then.
-#include <algorithm>
-#include <functional>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::same_device_test {
 namespace {

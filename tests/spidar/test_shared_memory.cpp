@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Seqlock and ring, alone and between two threads (for the thread sanitizer).
-#include <array>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::shared_memory_test {
 namespace {

@@ -2,19 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 // Compares the profiles in spidar/profiles/shipped with the published numbers.
 
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <set>
-#include <string>
-#include <vector>
-
 #include <Eigen/LU>
-#include <gtest/gtest.h>
 
 #include "core/grip/pose_solver.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/random_motion.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::shipped_profiles_test {
 

@@ -2,13 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // The readings of the simulated device: quantised, saturated, in equilibrium, and repeatable.
 
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include <gtest/gtest.h>
-
 #include "tests/spidar/simulated_device_test.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::simulated_device_test {
 

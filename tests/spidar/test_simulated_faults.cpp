@@ -3,16 +3,8 @@
 // The simulated device when the host is silent, when faults are injected, when it is closed, and
 // when several threads read it.
 
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <random>
-#include <string>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "tests/spidar/simulated_device_test.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::simulated_faults_test {
 

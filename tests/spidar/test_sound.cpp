@@ -2,24 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 /// Vibration through a sound card that is emulated behind ALSA's library, and keeps what is heard
 /// and when.
-#include <algorithm>
-#include <array>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
-#include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sound/packets.h"
 #include "spidar/devices/sound/sound_cards.h"
 #include "spidar/devices/sound/sound_transport.h"
 #include "spidar/session/board_list.h"
 #include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::sound_test {
 namespace {

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // spidarctl as a user sees it: exit status, messages, files.
-
-#include <algorithm>
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <pty.h>
 #include <regex>
-#include <sstream>
-#include <string>
 #include <string_view>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/profiles/profile.h"
 #include "spidar/realtime/monotonic.h"
@@ -23,6 +13,7 @@
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/spidarctl_command.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace fs = std::filesystem;
 

@@ -2,15 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 // spidarctl selftest on a joystick or gamepad of the emulated bus.
 #include <csignal>
-#include <fstream>
-#include <iterator>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::stick_settings_test {
 namespace {

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// How strongly joysticks push, to which side, and whether a spring pulls them back.
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <cmath>
 #include <future>
-#include <memory>
-#include <string>
-#include <thread>
-#include <utility>
 #include <variant>
-
-#include <gtest/gtest.h>
 
 #include "core/grip/string_geometry.h"
 #include "spidar/realtime/monotonic.h"
@@ -22,6 +11,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::stick_sides_test {
 namespace {

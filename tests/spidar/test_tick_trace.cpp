@@ -2,16 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include <cerrno>
 #include <clocale>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
-
-#include <gtest/gtest.h>
 
 #include "spidar/loop/tick_trace.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::tick_trace_test {
 namespace {

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Checks that TickWatch, which monitors the other tests, detects every violation.
-#include <fstream>
-#include <limits>
-#include <string>
-
 #include <gtest/gtest-spi.h>
-#include <gtest/gtest.h>
 
 #include "spidar/loop/tick_trace.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 
 namespace spidar::test::tick_watch_test {

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// A surface in the haptic loop: its force, and when it ends. Without a surface nothing changes.
-#include <cmath>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
 #include "spidar/loop/tick_trace.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/rest_force.h"
+#include "tests/support/test.h"
 #include "tests/support/tick_watch.h"
 #include "tests/support/touch_frames.h"
 

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Reliefs passed between two threads (also for the thread sanitizer).
-#include <atomic>
-#include <limits>
-#include <stdexcept>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/touch/touch_rendering.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::touch_mailbox_test {
 namespace {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Which surface is touched at each moment.
-#include <cmath>
-#include <functional>
-
-#include <gtest/gtest.h>
-
 #include "spidar/touch/touch_rendering.h"
+#include "tests/support/test.h"
 #include "tests/support/touch_frames.h"
 
 namespace spidar::test::touch_rendering_test {

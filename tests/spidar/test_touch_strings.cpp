@@ -2,13 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // A surface that stands still gives a hand no more energy than it got from it, through pose solver,
 // safety chain, tension solver, D/A steps and strings, and beside a film.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/touch/touch_rendering.h"
+#include "tests/support/test.h"
 #include "tests/support/touched_strings.h"
 
 namespace spidar::test::touch_strings_test {

@@ -1,17 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// UART boards over pseudo-terminals.
-#include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/uart/board.h"
 #include "spidar/link/emulated_transport.h"
 #include "spidar/link/link_thread.h"
@@ -21,6 +10,7 @@
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::uart_test {
 namespace {

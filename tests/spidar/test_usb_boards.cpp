@@ -1,19 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// USB boards through unmodified libusb, on an emulated bus.
-#include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <netinet/in.h>
-#include <string>
 #include <sys/socket.h>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/inverse3/packets.h"
@@ -24,6 +15,7 @@
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/board_bench.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::usb_boards_test {
 namespace {

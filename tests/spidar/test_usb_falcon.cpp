@@ -2,18 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 /// A Novint Falcon through unmodified libusb, on an emulated bus: its firmware, and what can happen
 /// on the way.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <string>
 #include <unistd.h>
-
-#include <gtest/gtest.h>
 
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/pushed_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::usb_falcon_test {
 namespace {

@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Which profiles boards on USB get, on an emulated bus.
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::usb_profiles_test {
 namespace {

@@ -2,14 +2,11 @@
 // Copyright 2026 the gst-spidar authors
 /// How the vibration of a hand is measured and limited: the budget alone, and films on the
 /// simulated device with the true acceleration of its grip.
-#include <cmath>
 #include <complex>
-#include <cstdlib>
-
-#include <gtest/gtest.h>
 
 #include "spidar/limits/vibration_budget.h"
 #include "tests/support/released_grip.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::vibration_test {
 namespace {

@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// What a hand was shaken counts in the next program, too.
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <fcntl.h>
-#include <filesystem>
-#include <fstream>
 #include <pwd.h>
-#include <string>
 #include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/limits/vibration_memory.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/user_folder.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::vibration_memory_test {
 namespace {

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The connection to a service of this computer.
-#include <array>
 #include <malloc.h>
 #include <sys/resource.h>
 
-#include <gtest/gtest.h>
-
 #include "spidar/transports/websocket_transport.h"
 #include "tests/support/inverse_service.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

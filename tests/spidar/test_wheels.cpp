@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Wheels are not taken for joysticks, nor joysticks for wheels.
-#include <cmath>
-#include <cstring>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wheels_test {
 namespace {

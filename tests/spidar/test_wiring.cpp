@@ -2,24 +2,14 @@
 // Copyright 2026 the gst-spidar authors
 // Finds the wiring from answers computed from the geometry, and from the simulated device, whose
 // hand and motors differ from the assumed ones.
-#include <algorithm>
-#include <cmath>
-#include <memory>
 #include <numeric>
-#include <random>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
 #include "spidar/selftest/wiring_report.h"
 #include "tests/support/miswired_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wiring_test {
 namespace {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The wiring test with a hand that does not keep still.
-#include <array>
-#include <cmath>
-#include <memory>
-#include <random>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/selftest/wiring_report.h"
 #include "tests/support/miswired_device.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wiring_hand_test {
 namespace {

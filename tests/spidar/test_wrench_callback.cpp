@@ -2,17 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // The function of an application that the loop asks for a wrench: when it is asked, what stops it.
 // That a wall of it gives a hand no energy is in test_touch_strings.cpp.
-#include <atomic>
-#include <chrono>
-#include <limits>
-#include <memory>
-#include <stdexcept>
-#include <string>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "tests/spidar/loop_driver.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::wrench_callback_test {
 namespace {

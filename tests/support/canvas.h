@@ -3,15 +3,10 @@
 /// A frame to draw into, whose pixels are read back.
 #pragma once
 
-#include <array>
-#include <optional>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/frame/frame_report.h"
 #include "plugin/overlay/video_overlay.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test {

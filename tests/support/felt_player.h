@@ -3,18 +3,11 @@
 /// A haptic session that plays a film of constant force, for force-feedback devices.
 #pragma once
 
-#include <chrono>
-#include <cmath>
-#include <memory>
-#include <string>
-#include <thread>
-
-#include <gtest/gtest.h>
-
 #include "spidar/devices/force_feedback/packets.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 

@@ -2,14 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/support/seam_watch.h"
 
-#include <algorithm>
-#include <sstream>
-
-#include <gtest/gtest.h>
-
 #include "spidar/grip/tension_command.h"
 #include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/brake_table.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

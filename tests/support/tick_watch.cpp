@@ -2,18 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/support/tick_watch.h"
 
-#include <algorithm>
-#include <fstream>
-#include <limits>
-#include <map>
-#include <sstream>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "spidar/limits/wrench_limits.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/loop/tick_trace.h"
+#include "tests/support/test.h"
 
 namespace spidar::test {
 namespace {

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Frames wait until they are on the screen, and give their pictures back.
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/window/program/player_link.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::frame_queue_test {
 namespace {

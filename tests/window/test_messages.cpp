@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a player and its window say to each other: as it was said, or refused.
-#include <array>
-#include <cmath>
-#include <cstdint>
 #include <fcntl.h>
-#include <random>
-#include <string>
 #include <sys/socket.h>
 #include <unistd.h>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "plugin/window/view/channel.h"
+#include "tests/support/test.h"
 #include "tests/window/messages.h"
 
 namespace spidar::test::messages_test {

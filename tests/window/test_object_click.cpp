@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a click in the picture of a debug window chooses.
-#include <limits>
-#include <optional>
-
-#include <gtest/gtest.h>
-
 #include "plugin/window/program/model/object_click.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::object_click_test {
 namespace {

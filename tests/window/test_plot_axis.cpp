@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Axes of plots: round numbers, and ranges that one outlier does not stretch.
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/overlay/plot_axis.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::plot_axis_test {
 namespace {

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What the debug window makes of choices: rules, and marks on the film.
-#include <algorithm>
-#include <cstdlib>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/window/program/model/scene_choices.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::scene_choices_test {
 namespace {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The timeline of the last minute.
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/window/program/model/timeline.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::timeline_test {
 namespace {

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Two settings side by side in the debug window.
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "plugin/window/program/model/two_settings.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::two_settings_test {
 namespace {

@@ -1,28 +1,19 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Debug windows on an X server of the test: opened, used, closed, and everything that can go wrong.
-#include <array>
 #include <cerrno>
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <memory>
 #include <mutex>
-#include <string>
 #include <sys/socket.h>
 #include <sys/wait.h>
-#include <thread>
 #include <unistd.h>
-#include <vector>
 
 #include <GLFW/glfw3.h>
-#include <gtest/gtest.h>
 
 #include "plugin/window/view/channel.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 

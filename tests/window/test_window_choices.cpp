@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Objects that are chosen by clicks in a debug window, and what of that is saved.
-#include <memory>
-
 #include <GLFW/glfw3.h>
-#include <gtest/gtest.h>
 
+#include "tests/support/test.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A debug window and its element: states, settings, and a window system that hangs.
-#include <chrono>
-#include <cstdio>
-#include <memory>
-#include <string>
-#include <thread>
 #include <unistd.h>
-#include <vector>
 
 #include <GLFW/glfw3.h>
-#include <gtest/gtest.h>
 
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 #include "tests/window/window_fixture.h"
 

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The data of a debug window, without a window.
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/force/motion_rendering.h"
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
@@ -15,6 +8,7 @@
 #include "plugin/window/program/model/timeline.h"
 #include "plugin/window/view/window_view.h"
 #include "tests/support/element_harness.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 
 namespace spidar::test::window_model_test {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The contents of a debug window, read back from the frame buffer.
-#include <memory>
-
 #include <GLFW/glfw3.h>
-#include <gtest/gtest.h>
 
+#include "tests/support/test.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Finger and mouse in a debug window, without a window.
-#include <limits>
-
-#include <gtest/gtest.h>
-
 #include "plugin/filter/display/element_source.h"
 #include "plugin/frame/touch_view.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/test.h"
 
 namespace spidar::test::window_touch_test {
 namespace {

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // What a debug window shows of a picture that is touched, and what the mouse does there.
-#include <memory>
-
-#include <gtest/gtest.h>
-
 #include "core/touch/height_field.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/test.h"
 #include "tests/window/fake_source.h"
 #include "tests/window/window_fixture.h"
 

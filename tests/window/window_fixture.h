@@ -3,21 +3,13 @@
 /// Debug windows for a test, and the colours in their pictures.
 #pragma once
 
-#include <chrono>
-#include <cmath>
-#include <cstdlib>
 #include <stb/stb_image.h>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "plugin/window/program/model/layout.h"
 #include "plugin/window/window.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/test.h"
 #include "tests/support/video_frames.h"
 #include "tests/support/virtual_display.h"
 

@@ -1,27 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Precompiled: what many files of this folder include and what takes long to read. No file relies
-// on it; `meson setup -Db_pch=false` builds without it.
-#include <algorithm>
-#include <array>
-#include <atomic>
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <functional>
-#include <limits>
-#include <map>
-#include <memory>
-#include <optional>
-#include <random>
-#include <sstream>
-#include <stdexcept>
-#include <string>
-#include <thread>
-#include <utility>
-#include <vector>
-
-#include <Eigen/Core>
-#include <gtest/gtest.h>
+// Precompiled: what takes long to read. No file relies on it; `meson setup -Db_pch=false` builds
+// without it.
+#include "tests/support/test.h"
