@@ -55,23 +55,46 @@ void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns,
   frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
 
-/// Finds what moves. Returns false, and measures nothing, while the picture waits.
-bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
-  const PicturePart area = area_of(picture);
-  // The previous frame showed another area, so there is nothing to compare this one with.
+/// Tells the finder how what may be the film moves on an average. What else is there, such as an
+/// object that does not move with it, makes that less.
+void MotionAnalyzer::tell_of_candidate(int64_t running_ns) {
+  const std::optional<PicturePart> part = area_finder_.candidate();
+  if (!part) return;
+  const double factor = halving_factor(frame_.place.picture_width, frame_.place.picture_height);
+  double across_px = 0, down_px = 0;
+  int count = 0;
+  for (const FollowedPoint& point : frame_.points) {
+    const double x = point.to.x_px / factor - part->x, y = point.to.y_px / factor - part->y;
+    if (x < 0 || y < 0 || x >= part->width || y >= part->height) continue;
+    across_px += point.to.x_px - point.from.x_px;
+    down_px += point.to.y_px - point.from.y_px;
+    ++count;
+  }
+  if (count == 0) return;
+  area_finder_.tell(across_px / factor / count, down_px / factor / count, running_ns);
+}
+
+/// Measures this area from this picture on. If the previous frame showed another one, there is
+/// nothing to compare it with.
+void MotionAnalyzer::enter(const PicturePart& area, const ImageView& picture) {
   if (area != frame_.place.area) {
     reset_measuring();
     page_scroll_.reset();
   }
   frame_.place = {area, picture.width, picture.height};
+}
+
+/// Finds what moves. Returns false, and measures nothing, while the picture waits.
+bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
+  const PicturePart area = area_of(picture);
+  enter(area, picture);
   const ImageView image = part_of(picture, area);
+  const bool is_auto = settings_.area.kind == AreaSetting::Kind::kAuto;
   const bool may_wait = cadence_.would_wait(running_ns);
   const OpenCvTracker::Result* const tracked =
       by_points() ? &tracker_.track(image, may_wait) : nullptr;
   const Likeness likeness = tracked ? tracked->picture : reduced_.read(image, may_wait);
-  if (settings_.area.kind == AreaSetting::Kind::kAuto) {
-    look_for_film(picture, running_ns, page_scroll_.look(image));
-  }
+  if (is_auto) look_for_film(picture, running_ns, page_scroll_.look(image));
   const bool is_comparable = likeness != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
@@ -92,8 +115,20 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
     return true;
   }
   take(step);
-  const bool is_compared =
+  bool is_compared =
       tracked ? find_mean(*tracked) : motion_.estimate(image, reduced_, frame_, frame_.felt_object);
+  if (is_auto) tell_of_candidate(running_ns);
+  if (const PicturePart found = area_of(picture); found != area) {
+    enter(found, picture);
+    is_compared = false;
+    const ImageView film = part_of(picture, found);
+    if (tracked) {
+      tracker_.track(film);
+    } else {
+      reduced_.read(film);
+      motion_.estimate(film, reduced_, frame_, 0);
+    }
+  }
   if (is_comparable && is_compared) {
     frame_.picture = likeness;
   } else {

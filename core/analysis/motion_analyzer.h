@@ -60,8 +60,10 @@ class MotionAnalyzer {
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   void take(const Cadence::Step& step);
   bool measure(const ImageView& picture, int64_t running_ns);
+  void enter(const PicturePart& area, const ImageView& picture);
   PicturePart area_of(const ImageView& picture);
   void look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls);
+  void tell_of_candidate(int64_t running_ns);
   bool find_mean(const OpenCvTracker::Result& tracked);
   void reset_measuring();
 

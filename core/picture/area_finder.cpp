@@ -53,6 +53,9 @@ constexpr double kMaxBar = 0.125;
 constexpr int kStaysWithin_px = 1;
 /// How far beside a side it is looked for what crosses it.
 constexpr int kBeside_px = kStaysWithin_px + 1;
+/// By so much what is in a rectangle must have moved to show whether its sides move with it: then
+/// two lines at a side that an object leaves are behind it, and what is beside the other is in it.
+constexpr double kMoves_px = kBeside_px + kStaysWithin_px;
 
 bool is_same(int a, int b) {
   return std::abs(a - b) <= kStaysWithin_px;
@@ -107,7 +110,7 @@ void AreaFinder::begin(const ImageView& picture) {
   rows_ = (height_ + kAreaCell_px - 1) / kAreaCell_px;
   cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
   open_.reserve(cells_.size());
-  begins_ = is_page_ = scrolls_ = skips_ = false;
+  is_page_ = scrolls_ = skips_ = false;
   stayed_ = crossed_ = lasting_pixels_ = 0;
   skipped_ = 0;
   area_.reset();
@@ -304,6 +307,7 @@ bool AreaFinder::confirm(const Candidate& candidate) {
     pending_ = candidate;
     stayed_ = 0;
   }
+  pending_.part = candidate.part;  // the more it has changed, the more exact
   return ++stayed_ >= kStays;
 }
 
@@ -359,9 +363,51 @@ void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confi
   const int own = lasting_cells(*area_) - (is_part ? others : 0);
   if (contains(candidate->part, *area_) || kPartsThatGoOn * own > others) active_ns_ = running_ns;
   if (is_confirmed && running_ns - active_ns_ >= (is_part ? kSearch_ns : kRests_ns)) {
-    area_ = candidate->part;
-    sides_ = candidate->sides;
-    active_ns_ = running_ns;
+    settle(*candidate, running_ns);
+  }
+}
+
+void AreaFinder::settle(const Candidate& candidate, int64_t running_ns) {
+  area_ = candidate.part;
+  sides_ = candidate.sides;
+  active_ns_ = running_ns;
+  crossed_ = 0;
+  searches_since_ns_.reset();
+  is_page_ = false;
+}
+
+/// Whether most of what begins at a side changes in the newest picture, and less beside it.
+bool AreaFinder::stands(const Side& side, const PicturePart& part, bool is_column,
+                        bool is_far) const {
+  const int begin = is_column ? part.y : part.x;
+  const int length = is_column ? part.height : part.width;
+  const int inwards = is_far ? -1 : 1;
+  int inside = 0, outside = 0;
+  for (int k = begin; k < begin + length; ++k) {
+    const auto changes = [&](int at) {
+      return changed_[static_cast<size_t>(is_column ? k * stride_ + at : at * stride_ + k)] != 0;
+    };
+    inside += changes(side.at) || changes(side.at + inwards);
+    outside += changes(side.at - kBeside_px * inwards);
+  }
+  return side.is_straight && inside > kMost * kStraight * length && outside < kMost * inside;
+}
+
+void AreaFinder::tell(double across_px, double down_px, int64_t running_ns) {
+  if (stayed_ == 1) moved_px_ = {};
+  if (stayed_ < 2) return;
+  moved_px_[0] += across_px;
+  moved_px_[1] += down_px;
+  for (size_t axis = 0; axis < 2; ++axis) {
+    if (std::abs(moved_px_[axis]) < kMoves_px) continue;
+    bool shows = false, moves = false;
+    for (size_t i = 2 * axis; i < 2 * axis + 2; ++i) {
+      const Side& side = pending_.sides[i];
+      if (side.is_border) continue;
+      shows = true;
+      moves |= !stands(side, pending_.part, axis == 0, i % 2 != 0);
+    }
+    if (shows && !moves) return settle(pending_, running_ns);
   }
 }
 
@@ -401,17 +447,11 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
                            candidate->part != searches_from_ &&
                            contains(candidate->part, searches_from_);
   if (is_confirmed && !may_be_page) {
-    area_ = candidate->part;
-    sides_ = candidate->sides;
-    active_ns_ = running_ns;
-    crossed_ = 0;
-    searches_since_ns_.reset();
-    is_page_ = false;
+    settle(*candidate, running_ns);
   } else if (searched_ns >= (is_page_ ? kRests_ns : kSearch_ns)) {
     searches_since_ns_.reset();
     is_page_ = false;
   }
-  begins_ = !area_ && compared_ <= 2 * kStays && stayed_ > 0;
 }
 
 }  // namespace spidar

@@ -21,6 +21,9 @@ namespace spidar {
 /// picture says nothing. Changes last where they are more than one in kRise + 1 pictures, so that a
 /// notification or the noise of one coded picture does not count.
 ///
+/// A rectangle is a film when it has stayed for kStays pictures, or when what is in it moves and
+/// its sides do not: those of an object move with it. Until then, the film is all of the picture.
+///
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
 /// is therefore kept until something crosses its sides: another film, or a page that moves. Then
 /// the film is looked for anew, for up to kSearch_ns; if none is found, it is all of the picture.
@@ -37,9 +40,16 @@ class AreaFinder {
 
   /// Px of the reduced picture; nothing: the film is all of it.
   const std::optional<PicturePart>& area() const { return area_; }
-  /// It is not known where the film is: what is around it moves, or has just changed, or the first
-  /// pictures show a rectangle.
-  bool is_searching() const { return begins_ || scrolls_ || searches_since_ns_.has_value(); }
+  /// It is not known where the film is: what is around it moves, or has just changed.
+  bool is_searching() const { return scrolls_ || searches_since_ns_.has_value(); }
+  /// What may be the film, while all of the picture is taken for it.
+  std::optional<PicturePart> candidate() const {
+    if (area_ || is_searching() || stayed_ == 0) return {};
+    return pending_.part;
+  }
+  /// How far what is in candidate() has moved to the picture that was looked at last. That may show
+  /// that it is the film.
+  void tell(double across_px, double down_px, int64_t running_ns);
   /// It searches in a page.
   bool is_page() const { return is_page_ || scrolls_; }
 
@@ -48,7 +58,7 @@ class AreaFinder {
     width_ = 0;
     area_.reset();
     searches_since_ns_.reset();
-    begins_ = is_page_ = scrolls_ = false;
+    is_page_ = scrolls_ = false;
   }
 
   /// How many pictures a rectangle must stay before it is believed. An object that is a rectangle
@@ -78,6 +88,8 @@ class AreaFinder {
   bool has_straight_sides(Candidate& candidate) const;
   Side side_of(const PicturePart& part, bool is_column, bool is_far) const;
   bool confirm(const Candidate& candidate);
+  bool stands(const Side& side, const PicturePart& part, bool is_column, bool is_far) const;
+  void settle(const Candidate& candidate, int64_t running_ns);
   int crossed_sides(const std::vector<uint8_t>& map, uint8_t least) const;
   void follow(const std::optional<Candidate>& candidate, bool is_confirmed, int64_t running_ns);
   int lasting_cells(const PicturePart& part) const;
@@ -90,7 +102,6 @@ class AreaFinder {
   std::vector<uint8_t> changed_;  ///< 255 where the newest picture differs from the one before
   std::vector<uint8_t> lasting_;  ///< how lastingly a pixel changes
   int compared_ = 0;              ///< pictures that have changed
-  bool begins_ = false;
   int lasting_pixels_ = 0;
   size_t skipped_ = 0;  ///< repeated pictures in a row
   bool skips_ = false;  ///< the last picture was not looked at
@@ -101,7 +112,8 @@ class AreaFinder {
   std::vector<uint8_t> cells_;  ///< number of lasting pixels in each
   std::vector<size_t> open_;    ///< cells that wait in grow()
   Candidate pending_;
-  int stayed_ = 0;  ///< pictures in which it has been `pending_`
+  int stayed_ = 0;                    ///< pictures in which it has been `pending_`
+  std::array<double, 2> moved_px_{};  ///< what is in it, since then
   std::optional<PicturePart> area_;
   std::array<Side, 4> sides_;  ///< of `area_`
   int crossed_ = 0;            ///< pictures in which something has lastingly crossed its sides

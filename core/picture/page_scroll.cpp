@@ -3,6 +3,7 @@
 #include "core/picture/page_scroll.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 
 namespace spidar {
@@ -13,19 +14,28 @@ constexpr int kDetailWithin_px = 32;
 /// How many of the patches that have changed are looked for. In a page whose films have half of
 /// the patches, one of 64 scrolled pictures has all of them in films.
 constexpr int kTries = 6;
-/// So many patches must have scrolled, an eighth of all, in columns or rows with no other ones that
-/// have changed: fewer may be an object in a film that has neither noise nor been coded. Of a film
-/// that was coded, whole columns are seldom exactly what they were elsewhere.
-constexpr int kMinScrolled = 8;
+/// So many patches must have scrolled, less what a step takes out of a window of half the picture's
+/// height, in columns or rows with no other ones that have changed. Fewer may be an object before a
+/// plain wall, of which encoders make exact copies: a third of both sides touches 16.
+constexpr int kMinScrolled = 20;
 /// The largest step, as a fraction of the height: by more, the analysis does not follow either, and
 /// takes the picture for a cut.
 constexpr int kHeightsOfStep = 4;
 
-/// Whether the pixels of a patch's line differ. Without that, every edge of two plain parts looks
-/// like every other.
-bool varies(const uint8_t* line, int bytes) {
-  return std::memcmp(line, line + bytes, static_cast<size_t>(PageScroll::kPatch_bytes - bytes)) !=
-         0;
+/// Text that can be read has a contrast of 3:1 at least (WCAG 2.1, 1.4.3): from black on, 89 grey
+/// levels. What encoders leave around an object of which they make copies is below a third of that.
+constexpr int kPlain_grey = 30;
+
+/// Whether the pixels of a patch's line differ by as much. Without that, every edge of two plain
+/// parts looks like every other.
+bool varies(const uint8_t* line, const LumaSample& sample) {
+  int least = 255, most = 0;
+  for (int i = 0; i < PageScroll::kPatch_bytes; i += sample.bytes) {
+    const int word = sample.bytes == 1 ? line[i] : line[i] | line[i + 1] << 8;
+    least = std::min(least, word >> sample.shift);
+    most = std::max(most, word >> sample.shift);
+  }
+  return most - least > kPlain_grey;
 }
 
 uint64_t begin_of(const uint8_t* line) {
@@ -52,7 +62,7 @@ void PageScroll::keep(const ImageView& picture) {
         const uint8_t* const upper = picture.at(patch.x, patch.y);
         const uint8_t* const lower = picture.at(patch.x, patch.y + 1);
         patch.has_detail = std::memcmp(upper, lower, kPatch_bytes) != 0 &&
-                           (varies(upper, bytes_) || varies(lower, bytes_));
+                           (varies(upper, picture.sample) || varies(lower, picture.sample));
       }
       if (!patch.has_detail) continue;
       --patch.y;
@@ -73,8 +83,8 @@ bool PageScroll::compare(const ImageView& picture) {
   for (const Patch& patch : patches_) {
     if (patch.has_detail && !is_at(patch, patch.y)) changed[static_cast<size_t>(count++)] = &patch;
   }
-  if (count < kMinScrolled) return false;
   const auto scrolls = [&](int step) {
+    const int least = kMinScrolled * (height_ - 2 * std::abs(step)) / height_;
     std::array<int, kAcross> in_column{};
     std::array<int, kDown> in_row{};
     std::array<bool, kAcross> column_differs{};
@@ -96,9 +106,9 @@ bool PageScroll::compare(const ImageView& picture) {
       for (size_t i = 0; i < found.size(); ++i) all += differs[i] ? 0 : found[i];
       return all;
     };
-    return std::max(sum(in_column, column_differs), sum(in_row, row_differs)) >= kMinScrolled;
+    return std::max(sum(in_column, column_differs), sum(in_row, row_differs)) >= least;
   };
-  for (int k = 0; k < kTries; ++k) {
+  for (int k = 0; k < kTries && count > 0; ++k) {
     const Patch& patch = *changed[static_cast<size_t>((2 * k + 1) * count / (2 * kTries))];
     const uint64_t begin = begin_of(patch.upper.data());
     const int reach = height_ / kHeightsOfStep;

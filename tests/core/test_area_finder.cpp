@@ -4,6 +4,7 @@
 // be all of it.
 #include <ostream>
 
+#include "core/analysis/motion_analyzer.h"
 #include "core/picture/area_finder.h"
 #include "tests/support/picture.h"
 #include "tests/support/test.h"
@@ -142,13 +143,11 @@ void expect_found(const Seen& seen, const Part& part, const std::string& what,
   }
 }
 
-/// All of the picture, though its first pictures may leave a doubt.
+/// All of the picture.
 void expect_whole(const Seen& seen, const std::string& what) {
   for (size_t n = 0; n < seen.area.size(); ++n) {
     ASSERT_FALSE(seen.area[n]) << what << " " << n << ": " << testing::PrintToString(*seen.area[n]);
-    if (n > 2 * AreaFinder::kStays) {
-      ASSERT_FALSE(seen.searches[n]) << what << " " << n;
-    }
+    ASSERT_FALSE(seen.searches[n]) << what << " " << n;
   }
 }
 
@@ -254,19 +253,57 @@ TEST(AreaFinder, KnowsWhatElseScreensShow) {
 }
 
 /// The sides of such an object are straight, but do not stay.
+Scene square(double speed, double across, double down) {
+  return [=](int n, double x, double y) {
+    const double at_x = 60 + speed * across * n, at_y = 80 + speed * down * n;
+    const bool is_inside = std::abs(x - at_x - 60) < 60 && std::abs(y - at_y - 45) < 45;
+    return is_inside ? kThing.at(x - at_x, y - at_y) : kWall.at(x, y);
+  };
+}
+
+constexpr std::pair<double, double> kDirections[] = {{1.0, 0.0}, {0.7, 0.7}, {0.0, -0.5}};
+
 TEST(AreaFinder, TakesNoObjectForAFilm) {
   for (const double speed : {0.3, 0.6, 1.0, 2.0, 5.0}) {
-    for (const auto& [across, down] : {std::pair{1.0, 0.0}, {0.7, 0.7}, {0.0, -0.5}}) {
-      const Scene square = [speed, across = across, down = down](int n, double x, double y) {
-        const double at_x = 60 + speed * across * n, at_y = 80 + speed * down * n;
-        const bool is_inside = std::abs(x - at_x - 60) < 60 && std::abs(y - at_y - 45) < 45;
-        return is_inside ? kThing.at(x - at_x, y - at_y) : kWall.at(x, y);
-      };
+    for (const auto& [across, down] : kDirections) {
       const std::string name = std::to_string(speed) + " px a picture, " + std::to_string(across);
-      expect_whole(see(square, 2 * kRate), name);
-      expect_whole(see(square, 2 * kRate, 1), name + ", noise");
+      expect_whole(see(square(speed, across, down), 2 * kRate), name);
+      expect_whole(see(square(speed, across, down), 2 * kRate, 1), name + ", noise");
     }
   }
+}
+
+/// The motion that is felt, px/s.
+std::vector<Eigen::Vector2d> felt(const Scene& scene, AreaSetting::Kind area, int pictures) {
+  AnalyzerSettings settings;
+  settings.area.kind = area;
+  MotionAnalyzer analyzer(settings);
+  Picture picture(kWidth, kHeight);
+  std::vector<Eigen::Vector2d> felt;
+  for (int n = 0; n < pictures; ++n) {
+    picture.fill([&](double x, double y) { return scene(n, x, y); });
+    felt.push_back(analyzer.analyze(picture.view(), n * kPicture_ns).motion.velocity_px_s);
+  }
+  return felt;
+}
+
+/// From the first picture on, as in the whole picture.
+TEST(AreaFinder, HasNoShareInHowAnObjectIsFelt) {
+  for (const double speed : {2.0, 5.0}) {
+    for (const auto& [across, down] : kDirections) {
+      const Scene scene = square(speed, across, down);
+      const std::vector<Eigen::Vector2d> whole = felt(scene, AreaSetting::Kind::kWhole, kRate);
+      EXPECT_EQ(felt(scene, AreaSetting::Kind::kAuto, kRate), whole) << speed << " " << across;
+      EXPECT_FALSE(whole.back().isZero()) << speed << " " << across;
+    }
+  }
+}
+
+/// A camera that moves is not felt, except before it is known to be one.
+TEST(AreaFinder, KnowsSoonThatAFilmIsNoObject) {
+  const std::vector<Eigen::Vector2d> moved =
+      felt(within(page, kMiddle, pan), AreaSetting::Kind::kAuto, kRate);
+  for (size_t n = AreaFinder::kStays; n < moved.size(); ++n) EXPECT_TRUE(moved[n].isZero()) << n;
 }
 
 TEST(AreaFinder, KeepsAFilmWhoseCameraComesToRest) {
