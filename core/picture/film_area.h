@@ -20,7 +20,7 @@ struct AreaSetting {
     kFixed,  ///< `part`
   };
 
-  Kind kind = Kind::kWhole;
+  Kind kind = Kind::kAuto;
   PicturePart part;  ///< px; what lies outside a picture is left out
 
   /// The part of a picture of this size, all of it with kAuto; one with a side below kMinSide_px

@@ -320,9 +320,9 @@ std::string text_of(const Pointer& pointer) {
 
 std::optional<AreaSetting> parse_area(const std::string& text) {
   AreaSetting area;
-  if (text == "whole") return area;
-  area.kind = AreaSetting::Kind::kAuto;
   if (text == "auto") return area;
+  area.kind = AreaSetting::Kind::kWhole;
+  if (text == "whole") return area;
   area.kind = AreaSetting::Kind::kFixed;
   PicturePart& part = area.part;
   const char* next = text.c_str();

@@ -36,7 +36,6 @@ FeltScreen::FeltScreen(View& view, const std::vector<std::string>& properties)
           "! videoconvert ! spidarmotion name=felt ! fakesink sync=false")) {
   GstBin* const bin = GST_BIN(pipeline_);
   felt_ = Ref<GstElement>(gst_bin_get_by_name(bin, "felt")).get();
-  gst_util_set_object_arg(G_OBJECT(felt_), "area", "auto");
   follow::set_properties(felt_, properties);
   // Of the sources, some bring a clock of their own.
   const Ref<GstClock> clock(gst_system_clock_obtain());

@@ -44,6 +44,7 @@ static_assert(MotionSettings{}.max_force_N == spidar::kDefaultForce_N);
 
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   spidar::AnalyzerSettings result;
+  result.area.kind = spidar::AreaSetting::Kind::kWhole;  // who calls knows what the pictures show
   result.controller.law = law_of(settings.controller);
   result.motion = kind_of(settings.motion);
   result.controller.max_force_N = settings.max_force_N;
