@@ -9,6 +9,7 @@ namespace spidar::bench {
 int camera(int argc, char** argv);
 int cost(int argc, char** argv);
 int filter(int argc, char** argv);
+int ladder(int argc, char** argv);
 int lag(int argc, char** argv);
 int loop(int argc, char** argv);
 int pose(int argc, char** argv);

@@ -6,6 +6,7 @@
 # machine should do nothing else.
 #   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
 #   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films and pareto, with films made by truth.py
+#   GYROSCOPE=FOLDER                           also gyroscope; its script says what is in this folder
 set -eu
 cd "$(dirname "$0")/../.."
 build=$(realpath "${1:?usage: tests/bench/results.sh BUILD [NAME...]}")
@@ -19,6 +20,8 @@ run() { # NAME
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
     changed_films) BUILD=$build tests/bench/changed_films.py "$FILMS" ;;
     pareto) BUILD=$build tests/bench/pareto.sh "$FILMS" --output "$folder" ;;
+    gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
+    films) BUILD=$build tests/bench/pathologies.sh ;;
     study_errors) tests/bench/study_errors.py ;;
     error_bound) SPIDAR_SWEEP=1 "$build/tests/core/test_core" test_error_bound.cpp ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
@@ -29,7 +32,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar tests/core/test_core
-[ $# -gt 0 ] || set -- tracking stability camera ${FILMS:+real_films changed_films pareto} skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
+[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films pareto} gyroscope skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

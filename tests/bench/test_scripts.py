@@ -6,13 +6,31 @@
     test_scripts.py
 """
 
+import csv
+import json
+import math
+import random
 import re
+import struct
+import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-import shares
-from real_films import Frame, Tally, read_other
+FOLDER = Path(__file__).resolve().parent
+
+import shares  # noqa: E402
+
+try:
+    import numpy as np
+except ImportError:
+    sys.exit(77)
+
+sys.path.append(str(FOLDER.parent / "docs"))
+import check_figures  # noqa: E402
+import gyroscope  # noqa: E402
+from real_films import Frame, Tally, read_other  # noqa: E402
 
 
 class OtherMethod(unittest.TestCase):
@@ -32,6 +50,39 @@ class OtherMethod(unittest.TestCase):
                 file.write_text(wrong, encoding="ascii")
                 with self.assertRaisesRegex(SystemExit, said):
                     read_other(Path(name), film, frames)
+
+
+class Benchmark(unittest.TestCase):
+    """tests/bench/real_films/, which others enter."""
+
+    @staticmethod
+    def rows(name):
+        with open(FOLDER / "real_films" / name, encoding="utf-8") as file:
+            return list(csv.DictReader(file, delimiter="\t"))
+
+    def test_its_splits_are_drawn_as_it_says(self):
+        clips = self.rows("clips.tsv")
+        of = {kind: sorted(row["clip"] for row in clips if row["moves"] == kind) for kind in ("object", "camera")}
+        self.assertEqual([len(names) for names in of.values()], [35, 15])
+        source = random.Random(1)
+        third = source.sample(of["object"], 11) + source.sample(of["camera"], 5)
+        self.assertEqual({row["clip"] for row in clips if row["split"] == "third"}, set(third))
+        for row in clips:
+            self.assertTrue(row["data set"] and row["licence"] and row["redistribute"].split(",")[0] in ("yes", "no"), row)
+            self.assertRegex(row["frames"], r"^\d+(-\d+)?$")
+            self.assertRegex(row["sha256"], r"^([0-9a-f]{16}|-)$")
+            self.assertTrue(row["address"].startswith("http"), row)
+        self.assertEqual(sorted(row["film"] for row in clips), [f"c{n:02d}" for n in range(1, 51)])
+
+    def test_each_method_has_all_its_figures(self):
+        for row in self.rows("methods.tsv"):
+            self.assertIn(row["films"], ("all", "third", "rest"))
+            for name in "right %", "right % at 18.4°", "wrong %", "false %":
+                if row[name] != "-":
+                    value, low, high = map(float, re.fullmatch(r"([\d.]+) \((\d+)–(\d+)\)", row[name]).groups())
+                    self.assertTrue(low - 0.5 <= value <= high + 0.5, row)
+            self.assertRegex(row["mean of films, below half"], r"^-$|^[\d.]+, \d+ of \d+$")
+            self.assertTrue(row["method"] and row["version"] and row["where"], row)
 
 
 class Shares(unittest.TestCase):
@@ -95,6 +146,101 @@ class Shares(unittest.TestCase):
                                       "100.0 (16 to 100)"])
         self.assertEqual(cells[7], "100.0", "of one film without an object")
         self.assertEqual([round(frame[0]) for film in tally.apart for frame in film], [0] * 4 + [90] * 4)
+
+
+def item(key, kind, size, data, count=None):
+    padded = data + b"\0" * (-len(data) % 4)
+    return struct.pack(">4scBH", key, kind, size, len(data) // size if count is None else count) + padded
+
+
+class Gyroscope(unittest.TestCase):
+    def test_reads_the_samples_of_a_gopro(self):
+        samples = [(10, -20, 30), (40, 50, -60), (7, 8, 9)]
+        stream = (item(b"STNM", b"c", 1, b"Gyroscope (z,x,y)") + item(b"SCAL", b"s", 2, struct.pack(">h", 10)) +
+                  item(b"GYRO", b"s", 6, b"".join(struct.pack(">3h", *row) for row in samples)))
+        other = item(b"SCAL", b"s", 2, struct.pack(">h", 5)) + item(b"ACCL", b"s", 6, struct.pack(">3h", 1, 2, 3))
+        device = item(b"STRM", b"\0", 1, other) + item(b"STRM", b"\0", 1, stream)
+        self.assertEqual(gyroscope.gyro_samples(item(b"DEVC", b"\0", 1, device)),
+                         [[value / 10 for value in row] for row in samples])
+        self.assertEqual(gyroscope.gyro_samples(item(b"DEVC", b"\0", 1, item(b"STRM", b"\0", 1, other))), [])
+
+    def made(self, lag_s=0.023, focal_px=500.0, noise_px_s=0.0, frames=240):
+        """Times of frames; times and rates of a gyroscope that is built in with other axes; rates of the camera."""
+        random = np.random.default_rng(3)
+        gyro_s = np.arange(-0.5, frames / 30 + 0.5, 1 / 400)
+        phases = random.uniform(0, 7, (3, 6))
+        swing = lambda t: np.stack([sum(np.sin(2 * np.pi * f * t + p) * 0.3 / f for f, p in zip((0.3, 0.7, 1.1, 1.9, 2.7, 3.1),
+                                                                                               row)) for row in phases], 1)
+        times_s = np.arange(frames) / 30
+        true = gyroscope.between(times_s, gyro_s, swing(gyro_s - lag_s), lag_s)  # yaw, pitch, roll
+        gyro = np.stack([-swing(gyro_s - lag_s)[:, 2], swing(gyro_s - lag_s)[:, 0], swing(gyro_s - lag_s)[:, 1]], 1)
+        moved = true * [focal_px, focal_px, 1] + random.normal(0, 1, true.shape) * noise_px_s * np.array([1, 1, 0.002])
+        return times_s, gyro_s, gyro, np.nan_to_num(moved)
+
+    def test_finds_lag_axes_and_focal_length(self):
+        times_s, gyro_s, gyro, moved = self.made()
+        known = np.arange(len(times_s)) >= 2
+        fit = gyroscope.Fit(times_s, gyro_s, gyro, [moved, moved], known)
+        self.assertEqual((list(fit.axes), list(fit.signs)), ([1, 2, 0], [1, 1, -1]))
+        self.assertAlmostEqual(fit.lag_s, 0.023, delta=gyroscope.LAG_STEP_S)
+        # A lag that is wrong by half a step of 1 ms, at 3 Hz at most: (2π · 3 · 0.0005)² / 2 of the slope.
+        self.assertAlmostEqual(fit.focal_px, 500, delta=500 * 1e-3)
+
+    def test_says_how_much_is_explained(self):
+        times_s, gyro_s, gyro, moved = self.made(noise_px_s=20)
+        table = gyroscope.report("film", times_s, gyro_s, gyro, {"one": moved, "weak": 0.8 * moved})
+        rows = {tuple(cell.strip() for cell in line.split("|")[1:3]): [float(cell.split()[0]) for cell in line.split("|")[3:7]]
+                for line in table.splitlines() if line.startswith(("| yaw", "| pitch", "| roll"))}
+        for axis in "yaw", "pitch":
+            (r, slope, error, turned), weak = rows[axis, "one"], rows[axis, "weak"]
+            # Noise of 20 px/s beside 500 px · the rate: r² = s² / (s² + (20/500)²).
+            noise = math.degrees(20 / 500)
+            self.assertAlmostEqual(r, turned / math.hypot(turned, noise), delta=0.02)
+            self.assertAlmostEqual(weak[1] / slope, 0.8, delta=0.002)  # three decimals are printed
+            # f comes from both: (1 + 0.8² ) is not its square, but the mean of 1 and 0.8 is its share.
+            self.assertAlmostEqual(slope, 1 / 0.9, delta=0.05)
+
+    def test_without_a_folder_it_is_skipped(self):
+        done = subprocess.run([sys.executable, FOLDER / "gyroscope.py"], capture_output=True, text=True, check=True)
+        self.assertTrue(done.stdout.startswith("skipped: no folder"), done)
+
+
+class Figures(unittest.TestCase):
+    PAGE = "# Speed\n\nIt takes 3.5 ms.\n\n| size | time, ms |\n|---|---|\n| 640 | 0.25 (0.1–0.4) |\n| 1280 | −1.5 |\n"
+
+    def wrong(self, rows, results=None):
+        keys = check_figures.COLUMNS
+        return list(check_figures.check({"a.md": self.PAGE}, [dict(zip(keys, row)) for row in rows], FOLDER.parents[1], results))
+
+    def test_every_figure_of_a_page_has_a_command(self):
+        bench = "build/tests/bench/spidar-bench "
+        text, table = (["a.md", "Speed", part, bench + "cost", "cost", "0.1", ""] for part in ("text", "table"))
+        self.assertEqual(self.wrong([text, table]), [])
+        for rows, said in (([text], "the table below \"Speed\" has figures"), ([table], "the text below \"Speed\" has figures"),
+                           ([text, table, ["a.md", "Pace", *text[2:]]], "there is no text below \"Pace\""),
+                           ([text, [*table[:3], bench + "speed", *table[4:]]], "there is no \"build/tests/bench/spidar-bench speed\"")):
+            found = self.wrong(rows)
+            self.assertEqual((len(found), said in found[0]), (1, True), found)
+
+    def test_a_table_is_compared_with_what_the_command_printed(self):
+        row = ["a.md", "Speed", "table", "-", "cost", "0.1", ""]
+        rows = [row, ["a.md", "Speed", "text", "-", "-", "-", ""]]
+        with tempfile.TemporaryDirectory() as folder:
+            self.assertIn("is missing", self.wrong(rows, folder)[0])
+            Path(folder, "cost.txt").write_text("0.27 0.1 0.4 -1.4", encoding="ascii")
+            self.assertEqual(self.wrong(rows, folder), [])
+            Path(folder, "cost.txt").write_text("0.29 0.1 0.4 -1.4", encoding="ascii")
+            found = self.wrong(rows, folder)
+            self.assertEqual((len(found), "a.md: 0.25 below" in found[0]), (1, True), found)
+
+    def test_of_a_text_those_figures_that_its_row_names(self):
+        rows = [["a.md", "*", "*", "-", "-", "-", ""], ["a.md", "Speed", "text", "-", "cost", "0.1: 3.5", ""]]
+        with tempfile.TemporaryDirectory() as folder:
+            for printed, wrong in ("3.6", 0), ("3.5e-3", 1), ("4", 1):
+                Path(folder, "cost.txt").write_text(printed, encoding="ascii")
+                self.assertEqual(len(self.wrong(rows, folder)), wrong, printed)
+        rows[1][5] = "0.1: 3.6"
+        self.assertIn("3.6 is not below", self.wrong(rows)[0])
 
 
 if __name__ == "__main__":
