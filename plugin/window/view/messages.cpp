@@ -142,7 +142,7 @@ class Wire {
       if (number < 0 || number > static_cast<int32_t>(Members::last(value))) return fail();
       if constexpr (kReads) value = static_cast<Value>(number);
     } else {
-      std::apply([this](auto&... members) { (one(members), ...); }, Members::of(value));
+      std::apply([&](auto&... members) { (one(members), ...); }, Members::of(value));
       if (!Members::are_fitting(value)) fail();
     }
   }
