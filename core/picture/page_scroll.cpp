@@ -22,6 +22,11 @@ constexpr int kMinScrolled = 20;
 /// takes the picture for a cut.
 constexpr int kHeightsOfStep = 4;
 
+/// For so many pictures, what a page scrolls has rested before, or has scrolled. What a camera pans
+/// moves in other directions, too: between two of its pictures are up to five that repeat one, of a
+/// film of 24 a second on a screen of 144.
+constexpr int kRests = 6;
+
 /// Text that can be read has a contrast of 3:1 at least (WCAG 2.1, 1.4.3): from black on, 89 grey
 /// levels. What encoders leave around an object of which they make copies is below a third of that.
 constexpr int kPlain_grey = 30;
@@ -80,10 +85,14 @@ bool PageScroll::compare(const ImageView& picture) {
            std::memcmp(patch.upper.data(), picture.at(patch.x, y), kPatch_bytes) == 0 &&
            std::memcmp(patch.lower.data(), picture.at(patch.x, y + 1), kPatch_bytes) == 0;
   };
-  for (const Patch& patch : patches_) {
-    if (patch.has_detail && !is_at(patch, patch.y)) changed[static_cast<size_t>(count++)] = &patch;
+  const Cells rested = rests_;
+  for (size_t i = 0; i < patches_.size(); ++i) {
+    const Patch& patch = patches_[i];
+    const bool has_changed = patch.has_detail && !is_at(patch, patch.y);
+    if (has_changed) changed[static_cast<size_t>(count++)] = &patch;
+    rests_[i] = has_changed ? 0 : std::min(rests_[i] + 1, kRests);
   }
-  const auto scrolls = [&](int step) {
+  const auto scrolls = [&](int step, int least_rests) {
     const int least = kMinScrolled * (height_ - 2 * std::abs(step)) / height_;
     std::array<int, kAcross> in_column{};
     std::array<int, kDown> in_row{};
@@ -96,8 +105,8 @@ bool PageScroll::compare(const ImageView& picture) {
       const auto at = static_cast<size_t>(&patch - patches_.data());
       const size_t column = at % kAcross, row = at / kAcross;
       const bool is_found = is_at(patch, y);
-      in_column[column] += is_found;
-      in_row[row] += is_found;
+      in_column[column] += is_found && rested[at] >= least_rests;
+      in_row[row] += is_found && rested[at] >= least_rests;
       column_differs[column] |= !is_found;
       row_differs[row] |= !is_found;
     }
@@ -115,7 +124,9 @@ bool PageScroll::compare(const ImageView& picture) {
     const int last = std::min(patch.y + reach, height_ - 2);
     for (int y = std::max(patch.y - reach, 0); y <= last; ++y) {
       if (begin_of(picture.at(patch.x, y)) != begin) continue;
-      if (y != patch.y && is_at(patch, y) && scrolls(y - patch.y)) return true;
+      if (y == patch.y || !is_at(patch, y) || !scrolls(y - patch.y, 0)) continue;
+      rests_.fill(kRests);
+      return scrolls(y - patch.y, kRests);
     }
   }
   return false;
@@ -124,6 +135,7 @@ bool PageScroll::compare(const ImageView& picture) {
 bool PageScroll::look(const ImageView& picture) {
   const bool is_comparable =
       picture.width == width_ && picture.height == height_ && picture.sample.bytes == bytes_;
+  if (!is_comparable) rests_.fill(kRests);
   const bool scrolls = is_comparable && compare(picture);
   keep(picture);
   return scrolls;

@@ -14,8 +14,8 @@ namespace spidar {
 /// A page scrolls up or down by whole pixels, and what it shows stays the same to the last bit,
 /// while the noise of a camera changes what moves. A few patches therefore show it: a page scrolls
 /// when all that have changed in some columns or rows of them are found again, unchanged and as far
-/// away. So does a cartoon without noise that pans up or down by whole pixels. For one thread at a
-/// time; does not allocate.
+/// away, and have rested or scrolled before. So does a cartoon without noise that goes on panning
+/// up or down by whole pixels. For one thread at a time; does not allocate.
 class PageScroll {
  public:
   /// Whether the picture shows the previous one scrolled. One of another size or format shows
@@ -28,6 +28,7 @@ class PageScroll {
 
  private:
   static constexpr int kAcross = 8, kDown = 8;
+  using Cells = std::array<int, size_t{kAcross} * kDown>;
   /// The beginning of two lines.
   struct Patch {
     int x = 0, y = 0;
@@ -41,6 +42,8 @@ class PageScroll {
   int width_ = 0, height_ = 0;
   int bytes_ = 0;  ///< of a pixel
   std::array<Patch, size_t{kAcross} * kDown> patches_;
+  /// In how many pictures each has not changed, or has only scrolled; at most kRests.
+  Cells rests_;
 };
 
 }  // namespace spidar

@@ -100,7 +100,11 @@ TEST(PageScroll, IsNoneOfWhatElseMoves) {
     return std::fmod(y + 7.0 * n, 120) < 60 ? 200.0 : 40.0;
   };
   const auto fractions = [](int n, double x, double y) { return page(x, y + 4.5 * n); };
+  const auto clean = [](int n, double x, double y) {
+    return kWall.at(x + 3.0 * ((n + 1) / 2), y + 4.0 * (n / 2));
+  };
   for (const auto& [name, scene] : {std::pair<const char*, Scene>{"a page at rest", scrolled(0)},
+                                    {"a camera without noise, right and down in turn", clean},
                                     {"a camera", noisy(pan)},
                                     {"an object", disc},
                                     {"plain bars", bars},
