@@ -99,9 +99,9 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
   return A;
 }
 
-/// Leaves at most `most` of the values, evenly: those at which multiples of the golden ratio, which
-/// fill an interval evenly and are in step with nothing, have passed the next whole number of
-/// shares. Every n-th pixel of rows would be in step with what is as wide as n, and with the rows.
+/// Leaves at most `most` of the values, evenly: those for whose index the fractional part of its
+/// multiple of the golden ratio is below the share that stays. Such parts fill an interval evenly
+/// and are in step with nothing, while every n-th pixel is in step with rows and what is n wide.
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
   if (values.size() <= most) return;
