@@ -3,6 +3,7 @@
 #include "plugin/films/stream_content.h"
 
 #include <sstream>
+#include <utility>
 
 #include "core/track/track_format.h"
 #include "plugin/gobject/ref.h"

@@ -96,8 +96,9 @@ std::string FeltScreen::words_for_film(const GstStructure* stats) const {
   const bool is_all =
       static_cast<guint>(width) == film_width && static_cast<guint>(height) == film_height;
   const std::string size = std::to_string(film_width) + " x " + std::to_string(film_height);
-  if (!is_all)
+  if (!is_all) {
     return "a film is in it, " + size + " at " + std::to_string(x) + ", " + std::to_string(y);
+  }
   return "no film with something at rest around it is seen: all of it is felt, " + size;
 }
 

@@ -181,8 +181,9 @@ class Round {
     seen.size_N = std::max(size_N_, damper_N_);
     seen.sees = !device_.is_tampered() && !miscounts_;
     // What a damper leaves falls as fast as tensions do.
-    if (seen.brakes)
+    if (seen.brakes) {
       rest_in_ns_ = std::max<int64_t>(rest_in_ns_, std::lround(1e9 * TensionSlew::kRange_s));
+    }
     seen.resting = !playing_ && rest_in_ns_ < 0;
     seen.felt = simulated_.felt();
     watch_.see(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");
