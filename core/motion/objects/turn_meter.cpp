@@ -105,7 +105,7 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
   if (values.size() <= most) return;
-  constexpr double kGolden = 0.6180339887498949;
+  constexpr double kGolden = 0.6180339887498949;  // (√5 − 1) / 2
   const double share = static_cast<double>(most) / static_cast<double>(values.size());
   size_t kept = 0;
   for (size_t i = 0; i < values.size() && kept < most; ++i) {

@@ -47,6 +47,7 @@ class TurnMeter {
                const ObjectEvidence& evidence);
 
   /// Limits that bound the time for a frame: of more blocks or pixels, some are used, evenly.
+  /// With half as many pixels, the growth of a plain disc is lost (`spidar-bench turns`).
   static constexpr size_t kMaxBlocks = 32;
   static constexpr size_t kMaxPixels = 512;
 
