@@ -8,8 +8,8 @@ check_links.py SOURCE: a link must name a file of SOURCE, and after a # a headin
 in `code` that begins with the name of a folder; `core/x/y` and `x/y` may stand for y.h and y.cpp there. The
 sources must have every name in the `code` of docs/extend.md. Every page of docs/ must be linked from
 docs/README.md, which is the table of contents of the site; every picture must have a text for those who do not
-see it. A page of the site links no page that the site has not (`PAGES` in docs/conf.py): Sphinx refuses that.
-Addresses on the net are not fetched."""
+see it. The page on troubleshooting must have every reason why nothing is felt. A page of the site links no page that
+the site has not (`PAGES` in docs/conf.py): Sphinx refuses that. Addresses on the net are not fetched."""
 
 import ast
 import re
@@ -64,6 +64,12 @@ def main():
     names = [name for name in NAME.findall(texts[docs / "extend.md"]) if not name.startswith(("yours", "pipelines_"))]
     wrong += [f"docs/extend.md: {name}: the sources have no such name" for name in names
               if not set(re.findall(r"\w+", name)) <= words]
+    # The sentences of plugin/reasons, after the first, which is that something is felt.
+    table = (source / "plugin/reasons/no_force.cpp").read_text(encoding="utf-8")
+    _, *reasons = re.findall(r'{NoForceReason::\w+,\s*"([\w-]+)"', table)
+    [advice] = docs.rglob("troubleshooting.md")
+    wrong += [f"{advice.relative_to(source)}: {reason}: is not explained" for reason in reasons
+              if f"`{reason}`" not in texts[advice]]
 
     def is_there(path, page):
         """As it is, beside the page, or the end of a path, as `layers/regions` is."""
