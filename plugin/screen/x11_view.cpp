@@ -20,10 +20,6 @@ namespace {
 /// Of films, the fastest; a game is felt no better with more, and each takes a copy of the picture.
 constexpr int kPictures_Hz = 60;
 
-struct Rectangle {
-  int x = 0, y = 0, width = 0, height = 0;
-};
-
 /// What can be seen of a window.
 enum class Sight { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
 
@@ -45,7 +41,7 @@ std::string words_for(Sight sight) {
   return "is closed";
 }
 
-void paint_black(GstVideoFrame& frame, const Rectangle& part) {
+void paint_black(GstVideoFrame& frame, const XWindowAttributes& part) {
   const int x = std::clamp(part.x, 0, GST_VIDEO_FRAME_WIDTH(&frame));
   const int right = std::clamp(part.x + part.width, x, GST_VIDEO_FRAME_WIDTH(&frame));
   const int y = std::clamp(part.y, 0, GST_VIDEO_FRAME_HEIGHT(&frame));
@@ -90,11 +86,9 @@ class X11View : public View {
           "GStreamer's ximagesrc, which reads the screen, is missing: Debian has it in "
           "gstreamer1.0-plugins-good");
     }
-    if (is_whole()) {
-      const Ref<GstElement> capture(gst_bin_get_by_name(GST_BIN(source.get()), "capture"));
-      const Ref<GstPad> pad(gst_element_get_static_pad(capture.get(), "src"));
-      gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, leave_out_own, this, nullptr);
-    }
+    const Ref<GstElement> capture(gst_bin_get_by_name(GST_BIN(source.get()), "capture"));
+    const Ref<GstPad> pad(gst_element_get_static_pad(capture.get(), "src"));
+    gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, leave_out, this, nullptr);
     return source;
   }
 
@@ -119,12 +113,9 @@ class X11View : public View {
       XNextEvent(display_, &event);
       if (event.type == VisibilityNotify) visibility_ = event.xvisibility.state;
     }
-    if (is_whole()) {
-      find_own();
-    } else if (XWindowAttributes now{}; XGetWindowAttributes(display_, window_, &now)) {
-      name_ = name();
-    }
-    if (name_.empty()) name_ = name();
+    if (is_whole()) find_own();
+    XWindowAttributes now{};
+    if (name_.empty() || XGetWindowAttributes(display_, window_, &now)) name_ = name();
   }
 
   /// Whether a pixel of it can be read: not where it lies beyond the edge of the screen, unless a
@@ -148,42 +139,38 @@ class X11View : public View {
 
   /// Where windows of this project are on the screen.
   void find_own() {
-    std::vector<Rectangle> found;
+    std::vector<XWindowAttributes> found;
     for (const Window window : program_windows(display_)) {
       XWindowAttributes now{};
       Window child = 0;
-      Rectangle at;
       if (!is_own(display_, window) || !XGetWindowAttributes(display_, window, &now) ||
           now.map_state != IsViewable ||
-          !XTranslateCoordinates(display_, window, window_, 0, 0, &at.x, &at.y, &child)) {
+          !XTranslateCoordinates(display_, window, window_, 0, 0, &now.x, &now.y, &child)) {
         continue;
       }
-      at.width = now.width;
-      at.height = now.height;
-      found.push_back(at);
+      found.push_back(now);
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     own_ = std::move(found);
   }
 
-  /// The debug window shows the film once more. Black rests, so it is no film.
-  static GstPadProbeReturn leave_out_own(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  /// Where it cannot read, ximagesrc gives what its buffers held before: several old pictures in
+  /// turn, whose motion would be felt. The debug window shows the film once more. Black rests, so
+  /// it is no film.
+  static GstPadProbeReturn leave_out(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+    if (take_x11_failure()) return GST_PAD_PROBE_DROP;
     auto& self = *static_cast<X11View*>(user);
-    std::vector<Rectangle> own;
-    {
-      const std::lock_guard<std::mutex> lock(self.mutex_);
-      own = self.own_;
-    }
+    const std::lock_guard<std::mutex> lock(self.mutex_);
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
     GstVideoInfo format;
     GstVideoFrame frame;
-    if (own.empty() || !caps || !gst_video_info_from_caps(&format, caps.get())) {
+    if (self.own_.empty() || !caps || !gst_video_info_from_caps(&format, caps.get())) {
       return GST_PAD_PROBE_OK;
     }
     GstBuffer* const buffer = gst_buffer_make_writable(GST_PAD_PROBE_INFO_BUFFER(info));
     GST_PAD_PROBE_INFO_DATA(info) = buffer;
     if (!gst_video_frame_map(&frame, &format, buffer, GST_MAP_READWRITE)) return GST_PAD_PROBE_OK;
-    for (const Rectangle& each : own) paint_black(frame, each);
+    for (const XWindowAttributes& each : self.own_) paint_black(frame, each);
     gst_video_frame_unmap(&frame);
     return GST_PAD_PROBE_OK;
   }
@@ -195,7 +182,7 @@ class X11View : public View {
   int visibility_ = VisibilityUnobscured;
   Sight sight_ = Sight::kWhole;
   std::mutex mutex_;
-  std::vector<Rectangle> own_;
+  std::vector<XWindowAttributes> own_;  ///< their x and y are those on the screen
 };
 
 bool contains(const std::string& text, const std::string& part) {

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <memory>
 #include <unistd.h>
+#include <utility>
 
 namespace spidar::screen {
 namespace {
@@ -50,14 +51,23 @@ bool is_of_program(Display* display, Window window) {
   return property_of(display, window, "WM_STATE", AnyPropertyType).count > 0;
 }
 
+thread_local bool call_has_failed = false;
+
 }  // namespace
 
 void handle_x11_errors() {
-  XSetErrorHandler([](Display*, XErrorEvent*) { return 0; });
+  XSetErrorHandler([](Display*, XErrorEvent*) {
+    call_has_failed = true;
+    return 0;
+  });
   XSetIOErrorHandler([](Display*) -> int {
     std::fputs("spidar-feel: the screen has ended\n", stderr);
     _exit(1);
   });
+}
+
+bool take_x11_failure() {
+  return std::exchange(call_has_failed, false);
 }
 
 std::string title_of(Display* display, Window window) {

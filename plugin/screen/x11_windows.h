@@ -17,6 +17,9 @@ constexpr const char* kOwnClass = "spidar-window";
 /// connections of the process.
 void handle_x11_errors();
 
+/// Whether a call that this thread waited for has failed since it last asked.
+bool take_x11_failure();
+
 /// Empty for a window without one.
 std::string title_of(Display* display, Window window);
 

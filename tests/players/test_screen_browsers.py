@@ -4,7 +4,6 @@
 itself gives, how late it is, and what capture costs. Each picture of the film has its number in black and white at its
 upper edge. Browsers that are not installed are skipped."""
 
-import csv
 import json
 import math
 import os
@@ -220,11 +219,6 @@ class Browser:
             if at < len(captured) and captured[at][1] in first_tick_s and captured[at][0] < seen_s + .1:
                 lags.append(first_tick_s[captured[at][1]] - seen_s)
         return sorted(lags)
-
-    def rows(self):
-        with open(self.trace, newline="", encoding="ascii") as file:
-            whole = file.read().rpartition("\n")[0].splitlines()
-        return list(csv.DictReader(whole))
 
     def captured(self):
         """(monotonic s, running ns) of each new picture."""
