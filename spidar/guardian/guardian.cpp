@@ -15,6 +15,7 @@
 #include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 #include "spidar/device.h"
 #include "spidar/guardian/sleep_inhibitor.h"
@@ -200,16 +201,18 @@ bool Guardian::watch(bool pulling) noexcept {
   ssize_t got = 0;
   while ((got = recv(socket_, &answer, 1, MSG_DONTWAIT)) > 0) {
     zeroed_ |= answer == GuardianWord::kZeroed;
-    unanswered_ns_ = 0;
+    answered_ = true;
   }
   if (zeroed_ || got == 0 || errno != EAGAIN) return false;
+  constexpr int64_t kBeat_ns = kBeat_ms * kSecond_ns / 1000;
   const int64_t now_ns = monotonic_now_ns();
-  if (unanswered_ns_ != 0 && now_ns - unanswered_ns_ > kAnswer_ms * kSecond_ns / 1000) return false;
-  const bool due = now_ns - said_ns_ >= kBeat_ms * kSecond_ns / 1000;
-  if (pulling == pulling_ && !due) return true;
+  const int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
+  silent_ns_ = answered_ ? 0 : silent_ns_ + std::min(passed_ns, kBeat_ns);
+  if (silent_ns_ > kAnswer_ms * kSecond_ns / 1000) return false;
+  if (pulling == pulling_ && now_ns - said_ns_ < kBeat_ns) return true;
   pulling_ = pulling;
   said_ns_ = now_ns;
-  if (unanswered_ns_ == 0) unanswered_ns_ = now_ns;
+  answered_ = false;
   return say(pulling ? HostWord::kPulling : HostWord::kResting);
 }
 

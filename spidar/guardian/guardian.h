@@ -141,8 +141,12 @@ class Guardian {
   pid_t owner_ = -1;
   bool pulling_ = false;  ///< as the guardian knows it
   bool zeroed_ = false;   ///< the motors, by the guardian
+  bool answered_ = true;
   int64_t said_ns_ = 0;
-  int64_t unanswered_ns_ = 0;  ///< time since which no answer has come; 0: all is answered
+  int64_t watched_ns_ = 0;
+  /// Without an answer. A pause between two calls counts as a beat at most: what stops this
+  /// process, as a virtual machine that gets no processor, may have stopped the guardian as well.
+  int64_t silent_ns_ = 0;
 };
 
 }  // namespace spidar

@@ -54,6 +54,15 @@ void exchange_until(StringDevice& device, const MotorVolts& volts, const Conditi
   });
 }
 
+/// What spidarctl says on a machine that is too busy: it, or its guardian, had no processor time.
+inline bool stood_still(const std::string& log) {
+  return log.find("this program stood still") != std::string::npos;
+}
+inline bool is_unguarded(const std::string& log) {
+  return log.find("the guardian (spidar-guardian), without which no motor pulls") !=
+         std::string::npos;
+}
+
 /// The guardian that a process, by default this one, has started; 0 when there is none.
 inline pid_t guardian_process(pid_t of = getpid()) {
   for (const auto& entry : std::filesystem::directory_iterator("/proc")) {

@@ -163,6 +163,28 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
   if (seen == 0) GTEST_SKIP() << "this machine was busy";
 }
 
+/// What stops a player, as a virtual machine that gets no processor, may have stopped its guardian
+/// as well: a pause of the player, however long, is one beat of the guardian's silence.
+TEST(GuardianPairs, APlayerThatPausedGivesItsGuardianTime) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+  LastWill will;
+  will.wire = LastWill::Wire::kSocket;
+  will.file = ends[0];
+  Guardian guardian("pair", will);
+  const pid_t process = guardian_process();
+  kill(process, SIGSTOP);
+  EXPECT_TRUE(guardian.watch(false));
+  for (int beats = kBeat_ms; beats <= kAnswer_ms; beats += kBeat_ms) {
+    sleep_ms(2 * kBeat_ms);
+    EXPECT_TRUE(guardian.watch(false)) << beats;
+  }
+  sleep_ms(2 * kBeat_ms);
+  EXPECT_FALSE(guardian.watch(false));
+  kill(process, SIGCONT);
+  for (const int end : ends) ::close(end);
+}
+
 /// A control group of version 2, if this process may make one; it ends with its processes.
 class ControlGroup {
  public:
