@@ -103,10 +103,7 @@ bool DeviceWarnings::open(HapticOutput& output, const std::string& device, OnDev
     profile_ = output.profile().name;
     GST_INFO_OBJECT(element_, "opened device '%s' with profile '%s'", device.c_str(),
                     output.profile().name.c_str());
-    if (!trace_error.empty()) {
-      GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", trace_error.c_str()),
-                          ("%s and the force continue without it.", what_.c_str()));
-    }
+    report_haptic_trace(trace_error);
     check_opened(output);
     return true;
   } catch (const std::exception& refusal) {
@@ -176,6 +173,12 @@ void DeviceWarnings::start() {
   haptic_trace_ = false;
   state_ = DeviceState::kClosed;
   refusal_.clear();
+}
+
+void DeviceWarnings::report_haptic_trace(const std::string& error) {
+  if (error.empty()) return;
+  GST_ELEMENT_WARNING(element_, RESOURCE, OPEN_WRITE, ("%s", error.c_str()),
+                      ("%s and the force continue without it.", what_.c_str()));
 }
 
 void DeviceWarnings::check_haptic_trace(const HapticSession* session) {

@@ -37,6 +37,8 @@ class DeviceWarnings {
   void start();
   /// Checks the device. Returns false when the stream has to end, and then reports why.
   bool check(const HapticSession* session, OnDeviceError policy);
+  /// Reports what HapticOutput::begin_trace() has returned.
+  void report_haptic_trace(const std::string& error);
   /// Reports, once for each device, that the haptic trace can no longer be written.
   void check_haptic_trace(const HapticSession* session);
   /// The stream ends: writes the last rows of the haptic trace, reports as check_haptic_trace()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <gst/gst.h>
@@ -25,6 +26,7 @@
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 
 namespace spidar {
+namespace fs = std::filesystem;
 namespace {
 
 int64_t not_negative(int64_t ns) {
@@ -154,10 +156,11 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
     const std::lock_guard<std::mutex> lock(mutex_);
     chosen_.clear();
   }
-  if (device != kAutoDevice) return open_named(device, profile_name, max_force_N, haptic_trace);
+  next_trace_ = haptic_trace;
+  if (device != kAutoDevice) return open_named(device, profile_name, max_force_N);
   std::string refused;
   const auto choose = [&](const AutoDevice& found, const std::string& profile) {
-    const std::string trace_error = open_named(found.device, profile, max_force_N, haptic_trace);
+    const std::string trace_error = open_named(found.device, profile, max_force_N);
     const std::lock_guard<std::mutex> lock(mutex_);
     chosen_ = found.why + " (device=auto)" + refused;
     return trace_error;
@@ -179,29 +182,29 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
                 profile_name);
 }
 
+std::string HapticOutput::begin_trace(bool has_film) {
+  std::error_code none;
+  const bool has_rows = fs::is_regular_file(next_trace_, none) && !fs::is_empty(next_trace_, none);
+  if (!session_ || next_trace_.empty() || (has_rows && !has_film)) return {};
+  try {
+    session_->begin_trace(std::exchange(next_trace_, ""));
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
 std::string HapticOutput::open_named(const std::string& device, const std::string& profile_name,
-                                     double max_force_N, const std::string& haptic_trace) {
+                                     double max_force_N) {
   Profile profile = profile_for(device, profile_name);
   const std::string doubt = other_than_confirmed(device, profile_name);
   if (is_simulated(device)) profile.drive_lag_known = true;
   SessionSettings settings;
-  settings.trace_path = haptic_trace;
   settings.threaded = !now_;
   SimulatedDevice* simulated = nullptr;
-  const auto make_session = [&] {
-    return std::make_unique<HapticSession>(grip_for(device, profile, settings.threaded, simulated),
-                                           settings);
-  };
-  std::string trace_error;
   std::unique_ptr<CardReservation> reservation = reserve(element_, device);
-  std::unique_ptr<HapticSession> session;
-  try {
-    session = make_session();
-  } catch (const TraceError& error) {
-    trace_error = error.what();
-    settings.trace_path.clear();
-    session = make_session();
-  }
+  auto session = std::make_unique<HapticSession>(
+      grip_for(device, profile, settings.threaded, simulated), settings);
   HapticLoop& loop = session->loop();
   follower_.begin(
       [this, &loop](const PlaybackClock& clock) {
@@ -223,7 +226,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     simulated_ = simulated;
   }
   set_max_force(max_force_N);
-  return trace_error;
+  return begin_trace(false);
 }
 
 void HapticOutput::close() {

@@ -47,6 +47,9 @@ class HapticOutput {
   const std::string& doubt() const { return doubt_; }
   /// The limit of the open device. State changes.
   double max_force_N() const { return max_force_N_; }
+  /// Begins the haptic trace, once. A file that has rows stays as it is until there is a film, so
+  /// that one that is mistyped leaves it alone. Returns as open(), which calls it without a film.
+  std::string begin_trace(bool has_film);
   /// Brings the motors to rest and closes the device.
   void close();
 
@@ -74,8 +77,7 @@ class HapticOutput {
   void describe(FieldSink& to) const;
 
  private:
-  std::string open_named(const std::string& device, const std::string& profile, double max_force_N,
-                         const std::string& haptic_trace);
+  std::string open_named(const std::string& device, const std::string& profile, double max_force_N);
 
   GstElement* const element_;
   const std::function<void()> refreshed_;
@@ -86,6 +88,7 @@ class HapticOutput {
   SimulatedDevice* simulated_ = nullptr;  ///< the device of session_ if it is simulated, else null
   Profile profile_;
   std::string chosen_, doubt_;
+  std::string next_trace_;  ///< its file, until it is opened; empty: none
   double max_force_N_ = 0;
   double most_force_N_ = 0;    ///< that the device can give
   std::string most_force_of_;  ///< the profile, or the device, that can give it

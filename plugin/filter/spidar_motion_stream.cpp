@@ -191,6 +191,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       break;
     case GST_EVENT_CAPS:
       open_trace(self);
+      state.warnings.device().report_haptic_trace(state.feed.output.begin_trace(true));
       break;
     case GST_EVENT_TAG: {
       GstTagList* tags;

@@ -314,6 +314,9 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
       self->state->track_warnings.start();
       self->state->messages.begin_stream(GST_BASE_SINK_PAD(sink));
       break;
+    case GST_EVENT_CAPS:
+      self->state->warnings.report_haptic_trace(self->state->output.begin_trace(true));
+      break;
     case GST_EVENT_SEGMENT:
       self->state->input.reset();
       break;

@@ -66,7 +66,7 @@ class HapticLoop {
   /// Upper bound of the time for which a force rises in one tick, however late that is, so that a
   /// stall does not end in a step. What falls does so in the time that has passed.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  static constexpr size_t kForces = 1024;
+  static constexpr size_t kForces = 1024, kRecords = 4096;  ///< ticks that are stored of each
 
   /// `grip` is opened by open().
   explicit HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits = {});
@@ -186,7 +186,7 @@ class HapticLoop {
   const std::unique_ptr<Grip> grip_;
   // Shared.
   LoopSchedule schedule_;
-  SpscRing<TickRecord, 4096> records_;
+  SpscRing<TickRecord, kRecords> records_;
   SpscRing<ForceTick, kForces> forces_;
   std::atomic<bool> closing_{false};
   std::atomic<touch::Mailbox*> touch_mailbox_{nullptr};

@@ -3,6 +3,7 @@
 #include "spidar/loop/tick_trace.h"
 
 #include <chrono>
+#include <stdexcept>
 
 #include "spidar/realtime/line_writer.h"
 #include "spidar/realtime/thread_setup.h"
@@ -88,14 +89,14 @@ void append_row(const TickRecord& record, std::string& csv) {
 TickTrace::TickTrace(const std::string& path) {
   const std::string reason = file_.open(path, kFirstColumns);
   if (!reason.empty()) {
-    throw TraceError("cannot write the haptic trace \"" + path + "\": " + reason);
+    throw std::runtime_error("cannot write the haptic trace \"" + path + "\": " + reason);
   }
   row_.reserve(kMaxRow_bytes);
   file_.add(trace_header() + "\n");
 }
 
 void TickTrace::add(const TickRecord& record) noexcept {
-  if (record.tick > last_tick_ + 1) missing_ticks_ += record.tick - last_tick_ - 1;
+  if (last_tick_ > 0 && record.tick > last_tick_) missing_ticks_ += record.tick - last_tick_ - 1;
   last_tick_ = record.tick;
   row_.clear();
   append_row(record, row_);
@@ -117,6 +118,9 @@ LineWriter::Status TickTrace::status() const noexcept {
 
 TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
     : loop_(loop), trace_(path) {
+  // After more ticks than are stored, the first ones would be followed by a gap.
+  const bool is_late = loop_.snapshot().counters.ticks >= HapticLoop::kRecords;
+  for (TickRecord old; is_late && loop_.pop_record(old);) continue;
   if (!threaded) return;
   thread_ = start_thread("spidar-trace", [this] { run(); });
 }

@@ -6,7 +6,6 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <thread>
 
@@ -16,11 +15,6 @@
 #include "spidar/realtime/line_writer.h"
 
 namespace spidar {
-
-/// The trace file cannot be created; the message names path and reason.
-struct TraceError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// What users read of a tick: a new column is a row here with its value. A frame_ns of INT64_MIN,
 /// which means no frame, becomes −1.
@@ -36,7 +30,7 @@ void append_row(const TickRecord& record, std::string& csv);
 /// The trace file. Used by one thread at a time, which does not wait for the file (LineWriter).
 class TickTrace {
  public:
-  /// Creates or empties the file. Throws TraceError.
+  /// Creates or empties the file. Throws std::runtime_error with path and reason.
   explicit TickTrace(const std::string& path);
 
   void add(const TickRecord& record) noexcept;
@@ -58,8 +52,8 @@ class TickTrace {
 /// Reads the records of a loop every 50 ms. The loop can store more than four seconds of them.
 class TraceThread {
  public:
-  /// Throws TraceError when the file cannot be written. `loop` must outlive this object. Without
-  /// `threaded`, records are only read by drain() and at the end.
+  /// Throws std::runtime_error when the file cannot be written. `loop` must outlive this object.
+  /// Without `threaded`, records are only read by drain() and at the end.
   TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
   /// Writes the remaining records.
   ~TraceThread();

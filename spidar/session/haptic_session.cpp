@@ -18,7 +18,6 @@ namespace spidar {
 struct HapticSession::Impl {
   Impl(std::unique_ptr<Grip> grip, const SessionSettings& settings)
       : loop(std::move(grip), settings.limits) {
-    if (!settings.trace_path.empty()) trace.emplace(settings.trace_path, loop, settings.threaded);
     loop.open();
     opened = loop.grip().description();
     if (!settings.threaded) return;
@@ -73,6 +72,10 @@ const Scheduling& HapticSession::scheduling() const noexcept {
 
 const LoopTiming& HapticSession::timing() const noexcept {
   return impl_->thread ? impl_->thread->timing() : impl_->no_timing;
+}
+
+void HapticSession::begin_trace(const std::string& path) {
+  impl_->trace.emplace(path, impl_->loop, impl_->thread.has_value());
 }
 
 void HapticSession::drain_trace() noexcept {

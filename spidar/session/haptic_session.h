@@ -21,15 +21,13 @@ namespace spidar {
 
 struct SessionSettings {
   SafetyLimits limits;
-  std::string trace_path;  ///< CSV, one row a tick; empty: none
-  bool threaded = true;    ///< false: the owner calls loop().tick()
-  bool real_time = true;   ///< ask for real-time priority; works without
+  bool threaded = true;   ///< false: the owner calls loop().tick()
+  bool real_time = true;  ///< ask for real-time priority; works without
 };
 
 class HapticSession {
  public:
-  /// Opens the grip and starts the loop. Throws DeviceError, or TraceError when the trace cannot be
-  /// written.
+  /// Opens the grip and starts the loop. Throws DeviceError.
   explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
   /// Makes a session with a grip on the strings of this device. Throws std::invalid_argument when
   /// the profile has fewer than six strings.
@@ -49,6 +47,9 @@ class HapticSession {
   /// Lateness and duration of the thread's ticks; empty without a thread.
   const LoopTiming& timing() const noexcept;
 
+  /// Begins a trace: CSV, one row a tick, from the first tick on if the loop still stores it. One
+  /// for each session. Throws std::runtime_error when it cannot be written.
+  void begin_trace(const std::string& path);
   /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
   /// the loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;

@@ -88,6 +88,21 @@ class Extract(gst_case.GstCase):
         self.assertTrue(self.play(f"filesrc location=none.avi ! decodebin ! {trace('a.csv')} ! fakesink").error)
         self.assertEqual(self.path("a.csv").read_text().count("\n"), 11)
 
+    def test_a_mistyped_film_leaves_the_haptic_trace_of_the_last_one(self):
+        film = "videotestsrc num-buffers=5 ! video/x-raw,width=64,height=48,framerate=25/1"
+        sound = "audiotestsrc num-buffers=5 ! audio/x-raw,channels=6,channel-mask=(bitmask)0x3f"
+        for source, element in ((film, "spidarmotion"), (sound, "spidarsink accept-unmarked=true")):
+            trace = self.path(element[:9])
+            ours = f"{element} device=sim haptic-trace={trace}" + (" ! fakesink" if source == film else "")
+            self.play(f"{source} ! {ours}")
+            rows = trace.read_text()
+            self.assertGreater(len(rows.splitlines()), 1)
+            self.assertTrue(self.play(f"filesrc location=none.avi ! decodebin ! {ours}").error)
+            self.assertEqual(trace.read_text(), rows)
+            self.play(f"{source} ! {ours}")
+            first, second, *_ = trace.read_text().splitlines()
+            self.assertEqual((first, second[:2]), (rows.splitlines()[0], "1,"), "it begins anew, with the first tick")
+
     def test_nothing_is_told_behind_a_queue_or_of_a_pipeline_that_is_paused(self):
         outcome = self.play(LIVE + "x.src ! queue ! fakesink x.wrench ! fakesink")
         self.assertTrue(outcome.eos, outcome.error)

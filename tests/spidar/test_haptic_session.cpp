@@ -54,26 +54,16 @@ TEST(NextDeadline, StaysOnItsGridAndNeverBursts) {
   EXPECT_EQ(next_deadline_ns(10 * kMs, 17 * kMs + 1), 18 * kMs);
 }
 
-TEST(HapticSession, UnwritableTraceLeavesDeviceAlone) {
-  const auto log = std::make_shared<FakeDeviceLog>();
-  const Profile profile = load_profile(kDefaultProfile);
-  SessionSettings settings;
-  settings.trace_path = "/nonexistent/haptic.csv";
-  EXPECT_THROW(HapticSession(profile, std::make_unique<FakeDevice>(log), settings),
-               std::runtime_error);
-  EXPECT_EQ(log->opened, 0);
-}
-
 TEST(HapticSession, ByHand) {
   const auto log = std::make_shared<FakeDeviceLog>();
   const fs::path path = trace_path("spidar-by-hand-");
   SessionSettings settings;
   settings.threaded = false;
-  settings.trace_path = path;
   uint64_t ticks = 0;
   {
     HapticSession session(load_profile(kDefaultProfile), std::make_unique<FakeDevice>(log),
                           settings);
+    session.begin_trace(path);
     EXPECT_FALSE(session.scheduling().real_time);
     EXPECT_EQ(session.timing().lateness.count(), 0u);
     EXPECT_EQ(session.grip().name(), "fake");
@@ -90,14 +80,30 @@ TEST(HapticSession, ByHand) {
   fs::remove(path);
 }
 
+TEST(HapticSession, ATraceThatBeginsLateHasAllRowsFromThenOn) {
+  const fs::path path = trace_path("spidar-late-");
+  SessionSettings settings;
+  settings.threaded = false;
+  HapticSession session(load_profile(kDefaultProfile),
+                        std::make_unique<FakeDevice>(std::make_shared<FakeDeviceLog>()), settings);
+  auto tick_until = [&session, now = kMs](int64_t end) mutable {
+    for (; now <= end; now += kTick_ns) session.loop().tick(now, now);
+  };
+  tick_until(5000 * kMs);
+  session.begin_trace(path);
+  tick_until(5002 * kMs);
+  session.drain_trace();
+  EXPECT_EQ(traced_ticks(path), (std::vector<uint64_t>{5001, 5002}));
+  EXPECT_EQ(session.trace_status().dropped, 0u);
+  fs::remove(path);
+}
+
 TEST(HapticSession, WithItsThread) {
   const auto log = std::make_shared<FakeDeviceLog>();
   const fs::path path = trace_path("spidar-threaded-");
-  SessionSettings settings;
-  settings.trace_path = path;
   {
-    HapticSession session(load_profile(kDefaultProfile), std::make_unique<FakeDevice>(log),
-                          settings);
+    HapticSession session(load_profile(kDefaultProfile), std::make_unique<FakeDevice>(log));
+    session.begin_trace(path);
     EXPECT_FALSE(session.scheduling().detail.empty());
     const std::set<std::string> names = thread_names();
     EXPECT_EQ(names.count("spidar-haptic"), 1u);
@@ -142,12 +148,12 @@ TEST(HapticSession, EndsWithDeviceLost) {
   EXPECT_FALSE(log->is_open);
 }
 
-TEST(HapticSession, FullDiskDoesNotStopTheLoop) {
+TEST(HapticSession, ATraceThatCannotBeWrittenDoesNotStopTheLoop) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   const Profile profile = load_profile(kDefaultProfile);
-  SessionSettings settings;
-  settings.trace_path = "/dev/full";
-  HapticSession session(profile, make_device("sim", profile), settings);
+  HapticSession session(profile, make_device("sim", profile));
+  EXPECT_THROW(session.begin_trace("/nonexistent/haptic.csv"), std::runtime_error);
+  session.begin_trace("/dev/full");
   ASSERT_TRUE(wait_for([&] { return session.trace_status().error == ENOSPC; }));
   const uint64_t ticks = session.loop().snapshot().counters.ticks;
   EXPECT_TRUE(wait_for([&] { return session.loop().snapshot().counters.ticks > ticks; }));
