@@ -142,7 +142,7 @@ void KeptStreams::keep_subtitles(GstPad* subtitles) {
   const Ref<GstCaps> caps(caps_of(subtitles));
   if (format_of(caps.get()) != "text/x-raw") {
     return miss("subtitles of it are left out, because they are pictures (" +
-                format_of(caps.get()) + "); --subtitles draws them into the film");
+                format_of(caps.get()) + "); spidartrack show --subtitles draws them into its film");
   }
   if (is_marked(caps.get())) {
     gst_pad_add_probe(subtitles, GST_PAD_PROBE_TYPE_BUFFER, replace_text<without_marks>, nullptr,
