@@ -52,7 +52,7 @@ EVENTS = {
         Object.assign(other, {src: 'film.webm', muted: true, loop: true, style: 'left: 760px; top: 540px; width: 320px'});
         setTimeout(() => other.play(), 6000)""",
     "scrolled": """for (let n = 0; n < 200; ++n)
-            document.body.appendChild(document.createElement('p')).textContent = 'Line ' + n + ' of what is read below a film.';
+            document.body.appendChild(document.createElement('p')).textContent = `Line ${n} of what is read below a film. `.repeat(4);
         film.style.position = 'relative';
         setTimeout(() => { film.pause(); setInterval(() => scrollBy(0, 4), 16) }, 7000)""",
 }
@@ -247,7 +247,7 @@ class Browser:
         paused_s = max(now_s for now_s, at_s in self.look_at("scrolled", 7) if 1 < at_s < 4)
         felt_N = {"before": 0, "then": 0}
         for now_s, _, force_N, _ in bus_case.read_trace(self.trace):
-            if abs(now_s - paused_s) < 2.5:
+            if now_s > paused_s - 2.5:
                 when = "before" if now_s < paused_s else "then" if now_s > paused_s + .5 else "between"
                 felt_N[when] = max(felt_N.get(when, 0), force_N)
         print(f"{self.COMMAND[0]}, scrolled: {felt_N}", flush=True)
