@@ -75,13 +75,13 @@ arrow(schedule["b"], ring["t"])
 # The loop.
 lane(400, 180, "spidar-haptic, 1000 times a second, real-time priority", "No lock, no allocation, no file, no log, no exception.")
 tick = box(940, 465, 210, 80, "core", "WrenchTimeline", "wrench for this millisecond,", "interpolated between frames")
-safety = box(745, 465, 160, 80, "spidar", "WrenchLimits", "limits, slew,", "ramp to rest")
+limits = box(745, 465, 160, 80, "spidar", "HapticLoop::limit()", "total limits,", "vibration, brake,", "rates, ramp to rest")
 solver = box(550, 465, 160, 80, "core", "TensionSolver", "wrench and pose to", "string tensions")
 motors = box(355, 465, 160, 80, "spidar", "TensionSlew, heat", "tensions to volts")
 pose = box(160, 465, 160, 80, "core", "PoseSolver", "string lengths", "to pose")
 arrow(ring["b"], tick["t"])
 arrow(clock["b"], (555, 440), (1000, 440), (1000, 465))
-for a, b in ((tick, safety), (safety, solver), (solver, motors)):
+for a, b in ((tick, limits), (limits, solver), (solver, motors)):
     arrow(a["l"], b["r"])
 arrow(pose["t"], (240, 452), (630, 452), solver["t"])
 note(430, 448, "pose of the tick before")
