@@ -14,8 +14,15 @@ void MotionAnalyzer::take(const Cadence::Step& step) {
   frame_.shown_for_ns = step.shown_for_ns;
 }
 
-/// The paper's motion: the mean over all points. False when there is nothing to compare with.
-bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
+/// Reads the film in a picture, in which compare() then finds what moves.
+Likeness MotionAnalyzer::read(const ImageView& film, bool may_wait) {
+  return by_points() ? tracker_.track(film, may_wait).picture : reduced_.read(film, may_wait);
+}
+
+/// Returns false when there is nothing to compare the film with.
+bool MotionAnalyzer::compare(const ImageView& film) {
+  if (!by_points()) return motion_.estimate(film, reduced_, frame_, frame_.felt_object);
+  const OpenCvTracker::Result& tracked = tracker_.result();
   frame_.features = tracked.features;
   if (tracked.picture == Likeness::kFirst) return false;
   frame_.points = tracked.points;
@@ -26,7 +33,7 @@ bool MotionAnalyzer::find_mean(const OpenCvTracker::Result& tracked) {
 /// The part of the picture that shows the film, as far as earlier pictures have told.
 PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
   const PicturePart all = settings_.area.of_picture(picture.width, picture.height);
-  if (settings_.area.kind != AreaSetting::Kind::kAuto) return all;
+  if (!finds_area()) return all;
   const FilmPlace& before = frame_.place;
   if (before.picture_width != picture.width || before.picture_height != picture.height) {
     area_finder_.reset();
@@ -44,7 +51,9 @@ PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
 }
 
 /// Shows the reduced picture to the finder. Where the film fills it, the analysis has made it.
-void MotionAnalyzer::look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls) {
+void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& film,
+                                   int64_t running_ns) {
+  const bool scrolls = page_scroll_.look(film);
   const bool is_reduced =
       !by_points() && frame_.place == FilmPlace::whole(picture.width, picture.height);
   if (!is_reduced) {
@@ -84,56 +93,58 @@ void MotionAnalyzer::enter(const PicturePart& area, const ImageView& picture) {
   frame_.place = {area, picture.width, picture.height};
 }
 
-/// Finds what moves. Returns false, and measures nothing, while the picture waits.
+/// Begins anew in the part of the picture that has just been found to be the film. Returns false if
+/// there is none, or it is the one that is measured.
+bool MotionAnalyzer::begins_in_part(const ImageView& picture) {
+  const PicturePart found = area_of(picture);
+  if (found == frame_.place.area) return false;
+  enter(found, picture);
+  const ImageView film = part_of(picture, found);
+  read(film);
+  if (!by_points()) motion_.estimate(film, reduced_, frame_);
+  return true;
+}
+
+/// Finds what moves in the film that was read, in the time of `step`. Returns false when there is
+/// nothing to compare it with.
+bool MotionAnalyzer::find_motion(const ImageView& picture, const ImageView& film,
+                                 const Cadence::Step& step, int64_t running_ns) {
+  if (!frame_.place.is_known) {
+    reset_measuring();
+    return false;
+  }
+  take(step);
+  const bool is_compared = compare(film);
+  if (finds_area()) tell_of_candidate(running_ns);
+  return !begins_in_part(picture) && is_compared;
+}
+
+/// Reads the picture and finds what moves. Returns false, and finds nothing, while it waits.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   const PicturePart area = area_of(picture);
   enter(area, picture);
-  const ImageView image = part_of(picture, area);
-  const bool is_auto = settings_.area.kind == AreaSetting::Kind::kAuto;
-  const bool may_wait = cadence_.would_wait(running_ns);
-  const OpenCvTracker::Result* const tracked =
-      by_points() ? &tracker_.track(image, may_wait) : nullptr;
-  const Likeness likeness = tracked ? tracked->picture : reduced_.read(image, may_wait);
-  if (is_auto) look_for_film(picture, running_ns, page_scroll_.look(image));
-  const bool is_comparable = likeness != Likeness::kFirst && last_running_ns_;
+  const ImageView film = part_of(picture, area);
+  const Likeness likeness = read(film, cadence_.would_wait(running_ns));
+  if (finds_area()) look_for_film(picture, film, running_ns);
+  const bool has_before = likeness != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
-  if (is_comparable) {
+  if (has_before) {
     step = cadence_.see(likeness, running_ns,
-                        tracked ? RepeatedPicture::Repeats() : reduced_.repeats());
-    if (step.waits && frame_.place.is_known) {
-      frame_.picture = Likeness::kWaiting;
-      return false;
-    }
+                        by_points() ? RepeatedPicture::Repeats() : reduced_.repeats());
   } else {
     motion_.reset();
   }
+  if (step.waits && frame_.place.is_known) {
+    frame_.picture = Likeness::kWaiting;
+    return false;
+  }
   frame_.clear_motion();
-  if (!frame_.place.is_known) {
-    reset_measuring();
-    cadence_.cut(running_ns);
-    return true;
-  }
-  take(step);
-  bool is_compared =
-      tracked ? find_mean(*tracked) : motion_.estimate(image, reduced_, frame_, frame_.felt_object);
-  if (is_auto) tell_of_candidate(running_ns);
-  if (const PicturePart found = area_of(picture); found != area) {
-    enter(found, picture);
-    is_compared = false;
-    const ImageView film = part_of(picture, found);
-    if (tracked) {
-      tracker_.track(film);
-    } else {
-      reduced_.read(film);
-      motion_.estimate(film, reduced_, frame_, 0);
-    }
-  }
-  if (is_comparable && is_compared) {
+  if (find_motion(picture, film, step, running_ns) && has_before) {
     frame_.picture = likeness;
   } else {
     cadence_.cut(running_ns);
-    if (!tracked) reduced_.cut();
+    if (!by_points()) reduced_.cut();
     frame_.clear_motion();
   }
   return true;

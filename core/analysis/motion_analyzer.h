@@ -58,13 +58,18 @@ class MotionAnalyzer {
 
  private:
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
-  void take(const Cadence::Step& step);
-  bool measure(const ImageView& picture, int64_t running_ns);
-  void enter(const PicturePart& area, const ImageView& picture);
+  bool finds_area() const { return settings_.area.kind == AreaSetting::Kind::kAuto; }
   PicturePart area_of(const ImageView& picture);
-  void look_for_film(const ImageView& picture, int64_t running_ns, bool scrolls);
+  void enter(const PicturePart& area, const ImageView& picture);
+  void look_for_film(const ImageView& picture, const ImageView& film, int64_t running_ns);
   void tell_of_candidate(int64_t running_ns);
-  bool find_mean(const OpenCvTracker::Result& tracked);
+  bool begins_in_part(const ImageView& picture);
+  Likeness read(const ImageView& film, bool may_wait = false);
+  void take(const Cadence::Step& step);
+  bool compare(const ImageView& film);
+  bool find_motion(const ImageView& picture, const ImageView& film, const Cadence::Step& step,
+                   int64_t running_ns);
+  bool measure(const ImageView& picture, int64_t running_ns);
   void reset_measuring();
 
   AnalyzerSettings settings_;

@@ -65,40 +65,24 @@ class Cadence {
  private:
   /// A picture that was followed by another one.
   struct Shown {
-    int64_t interval_ns = 0;
-    int frames = 1;
+    int64_t interval_ns = 0;  ///< from its first frame to that of the next picture
+    int frames = 1;           ///< that have shown it
   };
 
   void remember(const Shown& shown);
   void join_pieces(const RepeatedPicture::Repeats& repeats);
   bool knows_repeats() const;
-  int64_t median_ns() const;
   int64_t expected_ns() const;
-  double even_interval_ns() const;
+  int64_t median_ns() const;
+  bool is_alike_but_for_one(int64_t interval_ns) const;
   double even_interval_ns(size_t pictures) const;
+  int64_t learnt_ns() const;
 
   History<Shown, kPictures> shown_;
-  bool begun_ = false;
   int64_t picture_ns_ = 0;    ///< when the latest picture was first shown
   int64_t frame_ns_ = 0;      ///< the latest frame
   int frames_ = 0;            ///< number of frames that have shown the latest picture
   bool has_changed_ = false;  ///< there has been another picture since the cut
-};
-
-/// A frame may have been repeated because the one after it was lost: the picture has then moved on
-/// in the meantime, and the time between the frames is the right one. The speed tells which of the
-/// two it was: the right one is close to the previous speed.
-class LostFrames {
- public:
-  /// Factor for the speed that was computed with the interval of a Step that does not wait. Call
-  /// this once for each of them.
-  double correction(int64_t interval_ns, int64_t shown_for_ns, double speed_px_s);
-
-  /// After a cut.
-  void reset() { speed_px_s_ = 0; }
-
- private:
-  double speed_px_s_ = 0;  ///< the last one, corrected
 };
 
 }  // namespace spidar

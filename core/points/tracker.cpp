@@ -282,6 +282,10 @@ const OpenCvTracker::Result& OpenCvTracker::track(const ImageView& frame, bool m
   return impl_->result;
 }
 
+const OpenCvTracker::Result& OpenCvTracker::result() const {
+  return impl_->result;
+}
+
 void OpenCvTracker::reset() {
   impl_->reduced.reset();
 }

@@ -65,6 +65,7 @@ class OpenCvTracker {
   /// as kSame, too, and the points stay those of the previous frame. The result is valid until the
   /// next call. Throws as require_usable() does.
   const Result& track(const ImageView& frame, bool may_wait = false);
+  const Result& result() const;  ///< of the last track()
 
   /// Discards the previous frame, so that the next one starts anew without motion.
   void reset();

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // The rhythm in which a film shows new pictures, and the recognition of repeated ones.
 #include "core/motion/cadence.h"
+#include "core/motion/lost_frames.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::cadence_test {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// Tells a frame that was lost from one that shows a picture again.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+namespace spidar {
+
+/// A frame may have been repeated because the one after it was lost: the picture has then moved on
+/// in the meantime, and the time between the frames is the right one, not that of the rhythm. The
+/// speed tells which of the two it was: with the right time, it is close to the previous speed.
+class LostFrames {
+ public:
+  /// Factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1, or what
+  /// `shown_for_ns` in place of it makes of the speed. Call this once for each that does not wait.
+  double correction(int64_t interval_ns, int64_t shown_for_ns, double speed_px_s) {
+    double factor = 1;
+    if (interval_ns > 0 && shown_for_ns != interval_ns && speed_px_s > 0 && last_px_s_ > 0) {
+      const double if_lost = static_cast<double>(interval_ns) / static_cast<double>(shown_for_ns);
+      const double change = std::abs(std::log(speed_px_s / last_px_s_));
+      const double change_if_lost = std::abs(std::log(speed_px_s * if_lost / last_px_s_));
+      if (change_if_lost + std::log(1 + kSameSpeed) < change) factor = if_lost;
+    }
+    last_px_s_ = factor * speed_px_s;
+    return factor;
+  }
+
+  /// After a cut.
+  void reset() { last_px_s_ = 0; }
+
+ private:
+  /// Speeds that differ by less than this fraction count as equal.
+  static constexpr double kSameSpeed = 0.2;
+
+  double last_px_s_ = 0;  ///< the previous speed, corrected
+};
+
+}  // namespace spidar
