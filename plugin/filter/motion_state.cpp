@@ -24,7 +24,7 @@ MotionState::MotionState(GstElement* element)
     : feed(element),
       track(element, feed),
       choice(element),
-      display(element, feed.output, feed.no_force, choice, unread_messages),
+      display(element, feed.output, feed.no_force, choice, unread),
       steps(element, [this](GstClockTime skipped) { feed.skip(skipped); }),
       warnings(element) {}
 

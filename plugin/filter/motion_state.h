@@ -50,8 +50,8 @@ struct MotionState {
   std::mutex setting;         ///< what is set reaches the parts in the order it was set
   MotionProperties settings;  ///< object lock
   bool opened = false;        ///< object lock: READY or above
-  gint unread_messages = 0;   ///< atomic; posted, and not read by an application
-  gint window_changes = 0;    ///< atomic; to which the window has not yet responded
+  UnreadMessages unread;
+  gint window_changes = 0;  ///< atomic; to which the window has not yet responded
 
   // Any thread.
   HapticFeed feed;

@@ -116,7 +116,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   }
   if (report.has_wrench() && settings.post_messages) {
     post_motion_message(GST_ELEMENT(self), GST_BUFFER_PTS(frame->buffer),
-                        GST_BUFFER_DURATION(frame->buffer), report, &state.unread_messages);
+                        GST_BUFFER_DURATION(frame->buffer), report, state.unread);
   }
   return check_device(state) ? GST_FLOW_OK : GST_FLOW_ERROR;
 }

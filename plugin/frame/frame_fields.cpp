@@ -3,7 +3,6 @@
 #include "plugin/frame/frame_fields.h"
 
 #include "core/motion/objects/moving_object.h"
-#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/structure_fields.h"
 
 namespace spidar {
@@ -129,12 +128,13 @@ void object_fields(const MovingObject& object, FieldSink& to) {
 }
 
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
-                         const FrameReport& report, gint* unread) {
-  if (is_full_of_unread(*unread)) return;
-  GstStructure* const structure = gst_structure_new_empty("spidar-motion");
-  StructureFields to(structure, kInMessage);
-  frame_fields(report, {timestamp, duration}, to);
-  post_counted(element, gst_message_new_element(GST_OBJECT(element), structure), *unread);
+                         const FrameReport& report, UnreadMessages& unread) {
+  unread.post(element, [&] {
+    GstStructure* const structure = gst_structure_new_empty("spidar-motion");
+    StructureFields to(structure, kInMessage);
+    frame_fields(report, {timestamp, duration}, to);
+    return gst_message_new_element(GST_OBJECT(element), structure);
+  });
 }
 
 }  // namespace spidar

@@ -10,6 +10,7 @@
 
 #include "core/fields.h"
 #include "plugin/frame/frame_report.h"
+#include "plugin/gobject/unread_messages.h"
 #include "plugin/reasons/no_force.h"
 
 namespace spidar {
@@ -33,8 +34,8 @@ void no_force_fields(NoForceReason film, NoForceReason device, FieldSink& to);
 void background_fields(const Background& background, FieldSink& to);
 void object_fields(const MovingObject& object, FieldSink& to);
 
-/// Posts `spidar-motion` with the fields of frame_fields(); see post_counted().
+/// Posts `spidar-motion` with the fields of frame_fields().
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
-                         const FrameReport& report, gint* unread);
+                         const FrameReport& report, UnreadMessages& unread);
 
 }  // namespace spidar

@@ -56,27 +56,6 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
                            location.line);
 }
 
-/// While this many messages of an element wait on its bus, it posts no more of those that come
-/// without end: nobody reads them, and they would fill the memory by hundreds of megabytes an hour.
-/// At 25 frames/s an application that reads its bus has 40 s for it.
-constexpr gint kMaxUnread = 1000;
-
-inline bool is_full_of_unread(const gint& unread) {
-  return g_atomic_int_get(&unread) >= kMaxUnread;
-}
-
-/// Posts a message, which is counted in `unread` as long as it exists. The count lives as long as
-/// the element.
-inline void post_counted(GstElement* element, GstMessage* message, gint& unread) {
-  g_atomic_int_inc(&unread);
-  // The message holds the element until then.
-  const auto count_down = [](gpointer count, GstMiniObject*) {
-    g_atomic_int_add(static_cast<gint*>(count), -1);
-  };
-  gst_mini_object_weak_ref(GST_MINI_OBJECT_CAST(message), count_down, &unread);
-  gst_element_post_message(element, message);
-}
-
 /// Posts `text`, a sentence, for people. The debug text repeats it before `advice`, because
 /// gst-launch-1.0 prints nothing else.
 inline void post_information(GstElement* element, GQuark domain, gint code, const std::string& text,

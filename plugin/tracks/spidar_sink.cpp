@@ -153,13 +153,13 @@ class BlockMessages {
     report.no_force = reason_in_track(report.frame.wrench, loop);
     report.device_no_force = loop ? reason_in_device(*loop, muted) : NoForceReason::kNoDevice;
     post_motion_message(element_, pts, static_cast<GstClockTime>(block.duration_ns), report,
-                        &unread_);
+                        unread_);
   }
 
  private:
   GstElement* const element_;
   std::shared_ptr<const std::string> track_ = std::make_shared<const std::string>();
-  gint unread_ = 0;  ///< atomic
+  UnreadMessages unread_;
 };
 
 }  // namespace

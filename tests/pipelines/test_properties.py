@@ -17,7 +17,7 @@ import gi
 gi.require_version("GstController", "1.0")
 from gi.repository import GObject, GstController  # noqa: E402
 
-MOST_UNREAD = 1000  # kMaxUnread
+MOST_UNREAD = 1000  # UnreadMessages::kMax
 FRAME_NS = 40_000_000
 
 

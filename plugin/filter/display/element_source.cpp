@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "plugin/filter/choice/feel_file.h"
-#include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
 #include "plugin/gobject/ref.h"
 
@@ -89,8 +88,8 @@ double get_value(GObject* object, const window::Setting& setting) {
 class ElementSource final : public window::Source {
  public:
   ElementSource(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
-                MotionChoice& choice, gint& unread_messages)
-      : output_(output), no_force_(no_force), choice_(choice), unread_messages_(unread_messages) {
+                MotionChoice& choice, UnreadMessages& unread)
+      : output_(output), no_force_(no_force), choice_(choice), unread_(unread) {
     g_weak_ref_init(&element_, element);
   }
   ~ElementSource() override { g_weak_ref_clear(&element_); }
@@ -183,10 +182,11 @@ class ElementSource final : public window::Source {
   /// Only the application may change the state of its pipeline.
   void play(bool plays) override {
     const Ref<GstElement> held = hold(element_);
-    if (!held || is_full_of_unread(unread_messages_)) return;
-    const GstState state = plays ? GST_STATE_PLAYING : GST_STATE_PAUSED;
-    post_counted(held.get(), gst_message_new_request_state(GST_OBJECT(held.get()), state),
-                 unread_messages_);
+    if (!held) return;
+    unread_.post(held.get(), [&] {
+      return gst_message_new_request_state(GST_OBJECT(held.get()),
+                                           plays ? GST_STATE_PLAYING : GST_STATE_PAUSED);
+    });
   }
 
   /// From the element upstream, as a sink would: whatever reads the film seeks for all streams. In
@@ -244,7 +244,7 @@ class ElementSource final : public window::Source {
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
-  gint& unread_messages_;
+  UnreadMessages& unread_;
   std::vector<window::Setting> settings_;  ///< without their values
   std::vector<std::string> presets_;
   const std::shared_ptr<std::atomic<int64_t>> sought_ns_ =
@@ -255,8 +255,8 @@ class ElementSource final : public window::Source {
 
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
-                                                    MotionChoice& choice, gint& unread_messages) {
-  return std::make_shared<ElementSource>(element, output, no_force, choice, unread_messages);
+                                                    MotionChoice& choice, UnreadMessages& unread) {
+  return std::make_shared<ElementSource>(element, output, no_force, choice, unread);
 }
 
 }  // namespace spidar::filter

@@ -10,6 +10,7 @@
 
 #include "plugin/device/haptic_output.h"
 #include "plugin/filter/choice/motion_choice.h"
+#include "plugin/gobject/unread_messages.h"
 #include "plugin/reasons/no_force.h"
 #include "plugin/window/window.h"
 
@@ -29,6 +30,6 @@ inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
 /// belong to `element` and live as long.
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
-                                                    MotionChoice& choice, gint& unread_messages);
+                                                    MotionChoice& choice, UnreadMessages& unread);
 
 }  // namespace spidar::filter

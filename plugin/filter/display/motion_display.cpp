@@ -114,7 +114,7 @@ std::shared_ptr<window::Window> MotionDisplay::window() const {
 }
 
 std::shared_ptr<window::Source> MotionDisplay::source() const {
-  return make_element_source(element_, output_, no_force_, choice_, unread_messages_);
+  return make_element_source(element_, output_, no_force_, choice_, unread_);
 }
 
 void MotionDisplay::open_window() {

@@ -14,6 +14,7 @@
 #include "plugin/filter/choice/motion_choice.h"
 #include "plugin/filter/display/sink_hand.h"
 #include "plugin/frame/point_owners.h"
+#include "plugin/gobject/unread_messages.h"
 #include "plugin/overlay/video_overlay.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/reasons/no_force.h"
@@ -26,12 +27,12 @@ class MotionDisplay {
  public:
   /// The other arguments belong to `element` and live as long.
   MotionDisplay(GstElement* element, HapticOutput& output, const NoForceWatch& no_force,
-                MotionChoice& choice, gint& unread_messages)
+                MotionChoice& choice, UnreadMessages& unread)
       : element_(element),
         output_(output),
         no_force_(no_force),
         choice_(choice),
-        unread_messages_(unread_messages),
+        unread_(unread),
         hand_(output) {}
 
   // --- streaming thread
@@ -70,7 +71,7 @@ class MotionDisplay {
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
-  gint& unread_messages_;
+  UnreadMessages& unread_;
   SinkHand hand_;
   // Streaming thread.
   PointOwners owners_;
