@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Text for people: values, what devices say of themselves, words that are misspelt.
+/// Text for people and from them: values, what devices say of themselves, misspelt words, options.
 #pragma once
 
 #include <sstream>
@@ -29,5 +29,16 @@ std::string printable(std::string_view text);
 
 /// "; did you mean max-force?" for a word that is nearly one of `known`; else empty.
 std::string meant(const std::string& word, const std::vector<std::string>& known);
+
+/// The number from 1 to `largest` in an `option` "NAME=NUMBER", where `name` is "NAME="; 0 if
+/// `option` is something else.
+inline int option_value(const std::string& option, const std::string& name, int largest) {
+  if (option.compare(0, name.size(), name) != 0) return 0;
+  const std::string digits = option.substr(name.size());
+  if (digits.empty() || digits.size() > 5) return 0;
+  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
+  const int value = std::stoi(digits);
+  return value <= largest ? value : 0;
+}
 
 }  // namespace spidar

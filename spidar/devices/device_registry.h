@@ -16,6 +16,8 @@ namespace spidar {
 /// All kinds, in the order in which they are listed and device=auto tries them: those with strings,
 /// then the others.
 const std::vector<DeviceKind>& devices();
+/// Those on USB.
+std::vector<DeviceKind> usb_kinds();
 
 /// A device's name, split at its first colon.
 struct DeviceName {

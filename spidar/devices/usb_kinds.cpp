@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
+#include "spidar/devices/device_registry.h"
 #include "spidar/devices/rooms.h"
-#include "spidar/link/device_kind.h"
 
 namespace spidar {
 

@@ -12,36 +12,12 @@
 
 #include "spidar/link/board.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/link/device_info.h"
 #include "spidar/link/emulated_transport.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/transports/usb_transport.h"
 
 namespace spidar {
-
-/// A device that make_grip() can open.
-struct DeviceInfo {
-  std::string device;                 ///< for make_grip(): "usb:1-2", "sim"
-  std::string name;                   ///< "CyVerse USB 2.0 SH4"
-  std::string path;                   ///< on the bus: "1-2"; empty for simulated devices
-  std::string serial;                 ///< empty when it has none
-  std::string usb_id;                 ///< "0cec:0205"; empty when not on USB
-  const char* evidence = "emulated";  ///< DeviceKind::evidence
-  std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
-  bool accessible = true;  ///< this process may open it
-  /// The profile with which it is driven if none is named: that of a simulation, that of a device
-  /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
-  /// no force until one is named (see profile_choice.h).
-  std::string profile;
-  std::string memory_error;  ///< why confirmed profiles cannot be read; may be empty
-  /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
-  /// no strings.
-  std::string profile_board;
-  bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
-  bool directional = true;  ///< otherwise only the strength of the force is rendered
-};
-
-/// DeviceInfo::note of a device that 70-spidar.rules would make accessible.
-constexpr const char* kNoUdevRule = "no permission: udev rule 70-spidar.rules";
 
 struct DeviceKind {
   const char* device = "";  ///< what its name for make_grip() begins with: "usb"
@@ -102,19 +78,5 @@ template <typename Emulated>
 std::unique_ptr<emulated::Board> emulate(std::shared_ptr<emulated::Motors> motors) {
   return std::make_unique<Emulated>(std::move(motors));
 }
-
-/// The number from 1 to `largest` in an `option` "NAME=NUMBER", where `name` is "NAME="; 0 if
-/// `option` is something else.
-inline int option_value(const std::string& option, const std::string& name, int largest) {
-  if (option.compare(0, name.size(), name) != 0) return 0;
-  const std::string digits = option.substr(name.size());
-  if (digits.empty() || digits.size() > 5) return 0;
-  if (digits.find_first_not_of("0123456789") != std::string::npos) return 0;
-  const int value = std::stoi(digits);
-  return value <= largest ? value : 0;
-}
-
-/// Those on USB.
-std::vector<DeviceKind> usb_kinds();
 
 }  // namespace spidar

@@ -7,7 +7,6 @@
 #include <type_traits>
 #include <utility>
 
-#include "spidar/link/board.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "spidar/link/device_kind.h"
+#include "spidar/link/device_info.h"
 
 namespace spidar {
 

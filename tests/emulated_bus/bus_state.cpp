@@ -15,7 +15,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/link/device_kind.h"
+#include "spidar/devices/device_registry.h"
 #include "tests/emulated_bus/claim_locks.h"
 #include "tests/emulated_bus/evdev_files.h"
 #include "tests/emulated_bus/usb_files.h"

@@ -18,7 +18,7 @@
 #include <unistd.h>
 #include <vector>
 
-#include "spidar/link/device_kind.h"
+#include "spidar/devices/device_registry.h"
 #include "spidar/profiles/profile_file.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/emulated_bus/rehearsed_grip.h"

@@ -5,6 +5,7 @@
 #include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/devices/force_feedback/evdev_transport.h"
 #include "spidar/link/device_kind.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {

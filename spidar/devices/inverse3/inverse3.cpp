@@ -12,6 +12,7 @@
 #include "spidar/link/device_kind.h"
 #include "spidar/link/emulated_transport.h"
 #include "spidar/link/spring_hand.h"
+#include "spidar/text.h"
 #include "spidar/transports/websocket_transport.h"
 
 namespace spidar::boards {
