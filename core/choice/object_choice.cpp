@@ -7,6 +7,28 @@
 #include <utility>
 
 namespace spidar {
+namespace {
+
+/// The velocities before and after a loss differ by less than this fraction of the faster one.
+constexpr double kSameVelocity = 0.5;
+
+/// How well an object meets the rule. One whose score is higher by 1 takes the place of another.
+double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput& frame) {
+  if (rule.kind == FeelRule::Kind::kLargest) {
+    return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
+  }
+  const Eigen::Vector2d direction = frame.turn.to_stored(rule.direction);
+  return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height());
+}
+
+/// Whether both rules mean the same object, which then need not be found again.
+bool continues(const FeelRule& before, const FeelRule& now) {
+  return before.kind == now.kind && before.kind != FeelRule::Kind::kBox &&
+         before.from_ns == now.from_ns && before.position == now.position &&
+         before.far_corner == now.far_corner && before.direction == now.direction;
+}
+
+}  // namespace
 
 void BoxedObject::begin(const char* name) {
   *this = BoxedObject();
@@ -63,29 +85,6 @@ const MovingObject* BoxedObject::update(const ChoiceInput& frame) {
   if (!holds) return nullptr;
   return find_object(frame.objects, id_);
 }
-
-namespace {
-
-/// The velocities before and after a loss differ by less than this fraction of the faster one.
-constexpr double kSameVelocity = 0.5;
-
-/// How well an object meets the rule. One whose score is higher by 1 takes the place of another.
-double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput& frame) {
-  if (rule.kind == FeelRule::Kind::kLargest) {
-    return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
-  }
-  const Eigen::Vector2d direction = frame.turn.to_stored(rule.direction);
-  return direction.dot(object.position_px) / (ObjectChoice::kFurther * frame.height());
-}
-
-/// Whether both rules mean the same object, which then need not be found again.
-bool continues(const FeelRule& before, const FeelRule& now) {
-  return before.kind == now.kind && before.kind != FeelRule::Kind::kBox &&
-         before.from_ns == now.from_ns && before.position == now.position &&
-         before.far_corner == now.far_corner && before.direction == now.direction;
-}
-
-}  // namespace
 
 void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
   *this = FollowedObject();
@@ -207,33 +206,40 @@ const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceInput& 
   return other;
 }
 
-void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chosen& choice) {
-  choice.rule = rule;
-  if (rule_ != &rule) {
-    rule_ = &rule;
-    best_ = 0;
-    missed_ = false;
-    const double since_s = static_cast<double>(frame.stream_ns - rule.from_ns) * 1e-9;
-    seen_from_begin_ = since_s <= FollowedObject::kLook_s;
-    ruled_.begin(frame.px(rule.position), since_s);
-    boxed_.begin(rule.name.data());
+/// The rule holds from this frame on.
+void ObjectChoice::begin(const FeelRule& rule, const ChoiceInput& frame) {
+  rule_ = &rule;
+  best_ = 0;
+  missed_ = false;
+  const double since_s = static_cast<double>(frame.stream_ns - rule.from_ns) * 1e-9;
+  seen_from_begin_ = since_s <= FollowedObject::kLook_s;
+  ruled_.begin(frame.px(rule.position), since_s);
+  boxed_.begin(rule.name.data());
+}
+
+/// The object that was at the position of the rule when that began.
+void ObjectChoice::by_position(const ChoiceInput& frame, Chosen& choice) {
+  if (!seen_from_begin_) {
+    choice.state = Chosen::State::kNotSeen;
+    return;
   }
-  if (rule.kind == FeelRule::Kind::kLargest || rule.kind == FeelRule::Kind::kFurthest) {
+  choice.object = ruled_.update(frame.objects, frame.height(), frame.interval_s, frame.background);
+  missed_ |= ruled_.state() == FollowedObject::State::kWaiting;
+  if (missed_) choice.state = Chosen::State::kNotThere;
+  if (ruled_.state() == FollowedObject::State::kLost) choice.state = Chosen::State::kLost;
+}
+
+void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chosen& choice) {
+  using Kind = FeelRule::Kind;
+  if (rule_ != &rule) begin(rule, frame);
+  choice.rule = rule;
+  if (rule.kind == Kind::kLargest || rule.kind == Kind::kFurthest) {
     choice.object = best(rule, frame);
-  } else if (rule.kind == FeelRule::Kind::kBox) {
+  } else if (rule.kind == Kind::kBox) {
     choice.object = boxed_.update(frame);
     choice.state = boxed_.state();
-  } else if (rule.kind == FeelRule::Kind::kObjectAt && !seen_from_begin_) {
-    choice.state = Chosen::State::kNotSeen;
-  } else if (rule.kind == FeelRule::Kind::kObjectAt) {
-    choice.object =
-        ruled_.update(frame.objects, frame.height(), frame.interval_s, frame.background);
-    missed_ |= ruled_.state() == FollowedObject::State::kWaiting;
-    if (ruled_.state() == FollowedObject::State::kLost) {
-      choice.state = Chosen::State::kLost;
-    } else if (missed_) {
-      choice.state = Chosen::State::kNotThere;
-    }
+  } else if (rule.kind == Kind::kObjectAt) {
+    by_position(frame, choice);
   }
 }
 

@@ -197,6 +197,8 @@ class ObjectChoice {
   static constexpr double kHold_s = 0.2;
 
  private:
+  void begin(const FeelRule& rule, const ChoiceInput& frame);
+  void by_position(const ChoiceInput& frame, Chosen& choice);
   void by_rule(const FeelRule& rule, const ChoiceInput& frame, Chosen& choice);
   const MovingObject* best(const FeelRule& rule, const ChoiceInput& frame);
   bool follow_click(const ChoiceInput& frame, Chosen& choice);

@@ -111,6 +111,7 @@ class PlaybackSync {
     watched_ = false;
     behind_ns_ = 0;
   }
+  /// Readings of another clock begin another line.
   void follow(const GstClock* clock) {
     if (clock != clock_) reset_clock();
     clock_ = clock;
@@ -133,6 +134,7 @@ class PlaybackSync {
     monotonic_ns_ = monotonic_ns;
     clock_ns_ = clock_ns;
   }
+  /// Fits the line through the last readings, by which rate and newest reading lose their jitter.
   void fit() {
     // Real clocks drift by tens of ppm; a larger slope is jitter over too short a time.
     constexpr double kMaxDrift = 0.01;
@@ -154,6 +156,7 @@ class PlaybackSync {
     clock_ns_ = static_cast<int64_t>(base) +
                 static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
   }
+  /// A clock that runs at less than half speed counts as one that stands still.
   void watch_progress(int64_t monotonic_ns, int64_t clock_ns) {
     if (watched_) {
       const int64_t passed_ns = monotonic_ns - watched_monotonic_ns_;

@@ -73,28 +73,17 @@ class ExportedFilm {
       : film_(options.film) {
     const bool is_recorded = options.properties || (options.track.empty() && !has_track(film_));
     unplayed_ = why_no_browser(film_);
-    if (!folder.empty()) {
-      const fs::path name =
-          unplayed_.empty() ? fs::path(film_).filename() : fs::path(film_).stem().concat(".mp4");
-      copy_ = std::make_unique<PartFile>(folder / name,
-                                         PartFile::Replaces{options.force, kMaker, false});
-    }
-    const bool is_whole = copy_ || options.embed;
+    if (!folder.empty()) open_copy(folder, options.force);
+    const bool is_converted = !unplayed_.empty() && (copy_ || options.embed);
     if (options.embed && unplayed_.empty()) expect_embeddable(film_, film_);
-    parts_of_work_ = 1 + (is_recorded ? 1 : 0) + (is_whole && !unplayed_.empty() ? 1 : 0);
+    parts_of_work_ = 1 + (is_recorded ? 1 : 0) + (is_converted ? 1 : 0);
     std::unique_ptr<PartFile> recorded;  // never published
     if (is_recorded) {
       recorded = std::make_unique<PartFile>(fs::path(page) += ".haptic.flac",
                                             PartFile::Replaces{true, {}});
       record(options.properties.value_or(parse_record_properties({}, 1)), *recorded);
     }
-    condition_ = read_track(
-        film_, [this](const TrackSample& sample) { page_.add(sample); }, {},
-        recorded ? recorded->path() : options.track);
-    if (condition_.film.empty()) {
-      throw UsageError(film_ + ": is a track; give the film that it is for");
-    }
-    expect_own_track(condition_);
+    read_forces(recorded ? recorded->path() : options.track);
     has_subtitles_ = read_film(film_).has_subtitles;
     place_arrow();
   }
@@ -104,13 +93,14 @@ class ExportedFilm {
     const std::string html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
     page.write(html);
     publish(page);
-    tell(page.target(), html,
-         unplayed_.empty()
-             ? ""
-             : (ends_with(unplayed_, kNotEveryBrowser) ? "; not every browser plays it, because "
-                                                       : "; browsers do not play it, because ") +
-                   unplayed_ + "; spidartrack export " + film_ +
-                   " FOLDER/ converts it for them, as --embed does");
+    std::string unplayed;
+    if (!unplayed_.empty()) {
+      unplayed = (ends_with(unplayed_, kNotEveryBrowser) ? "; not every browser plays it, because "
+                                                         : "; browsers do not play it, because ") +
+                 unplayed_ + "; spidartrack export " + film_ +
+                 " FOLDER/ converts it for them, as --embed does";
+    }
+    tell(page.target(), html, unplayed);
   }
 
   /// A page that has the film in it.
@@ -153,6 +143,22 @@ class ExportedFilm {
   }
 
  private:
+  void open_copy(const fs::path& folder, bool force) {
+    const fs::path film(film_);
+    const fs::path name = unplayed_.empty() ? film.filename() : film.stem().concat(".mp4");
+    copy_ = std::make_unique<PartFile>(folder / name, PartFile::Replaces{force, kMaker, false});
+  }
+
+  /// `track`: its file; empty if the film has it.
+  void read_forces(const std::string& track) {
+    condition_ = read_track(
+        film_, [this](const TrackSample& sample) { page_.add(sample); }, {}, track);
+    if (condition_.film.empty()) {
+      throw UsageError(film_ + ": is a track; give the film that it is for");
+    }
+    expect_own_track(condition_);
+  }
+
   void record(const RecordProperties& properties, const PartFile& track) {
     try {
       const FilmResult result = record_in_process(
