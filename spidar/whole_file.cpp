@@ -6,11 +6,9 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
-#include <filesystem>
 #include <mutex>
 #include <set>
 #include <stdexcept>
-#include <string>
 #include <sys/stat.h>
 #include <sys/xattr.h>
 #include <system_error>

@@ -2,12 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/analysis/force_renderer.h"
 
-#include <algorithm>
 #include <stdexcept>
-#include <string>
-
-#include "core/force/motion_rendering.h"
-#include "core/motion/image_motion.h"
 
 namespace spidar {
 namespace {

@@ -2,10 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/choice/feel_rules.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <optional>
 
 #include "core/number_text.h"
 

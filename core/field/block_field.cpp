@@ -3,14 +3,11 @@
 #include "core/field/block_field.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 
-#include "core/field/block_kernels.h"
 #include "core/picture/image_view.h"
 #include "core/picture/opencv.h"
 #include "core/quantile.h"

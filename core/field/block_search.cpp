@@ -2,15 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/block_search.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <limits>
 #include <optional>
 
 #include <Eigen/LU>
-
-#include "core/field/block_kernels.h"
 
 namespace spidar {
 namespace {

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/field/fine_windows.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <Eigen/LU>

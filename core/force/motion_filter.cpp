@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/force/motion_filter.h"
 
-#include <cmath>
-
 #include "core/force/motion_rendering.h"
 #include "core/require.h"
 

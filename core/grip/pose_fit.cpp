@@ -3,7 +3,6 @@
 #include "core/grip/pose_fit.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/grip/matrices.h"
 

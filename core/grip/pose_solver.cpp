@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/grip/pose_solver.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>

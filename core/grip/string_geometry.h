@@ -6,7 +6,6 @@
 
 #include <array>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 namespace spidar {

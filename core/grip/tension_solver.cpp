@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Core>
-
 #include "core/grip/matrices.h"
 
 namespace spidar {

@@ -2,9 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/motion_estimator.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace spidar {
 namespace {
 

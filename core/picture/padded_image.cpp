@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "core/picture/image_view.h"
 #include "core/picture/luma.h"
 #include "core/picture/luma_words.h"
 #include "core/picture/opencv.h"

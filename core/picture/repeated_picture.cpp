@@ -3,7 +3,6 @@
 #include "core/picture/repeated_picture.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdlib>
 
 #include "core/picture/opencv.h"

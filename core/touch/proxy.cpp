@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/touch/proxy.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/touch/relief.h"

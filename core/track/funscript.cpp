@@ -3,7 +3,6 @@
 #include "core/track/funscript.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <utility>

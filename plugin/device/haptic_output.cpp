@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <utility>
 
-#include <gst/gst.h>
-
 #include "core/grip/string_geometry.h"
 #include "plugin/device/card_reservation.h"
 #include "plugin/gobject/category.h"
@@ -19,7 +17,6 @@
 #include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/session/haptic_session.h"
 #include "spidar/session/profile_choice.h"
 
 #undef GST_CAT_DEFAULT

@@ -6,11 +6,7 @@
 #include <cstdlib>
 #include <mutex>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <gst/gst.h>
 
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"

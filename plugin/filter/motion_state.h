@@ -6,7 +6,6 @@
 #include <mutex>
 #include <string>
 
-#include <gst/gst.h>
 #include <gst/video/video.h>
 
 #include "core/fields.h"

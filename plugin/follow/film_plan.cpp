@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <system_error>
 
-#include <glib.h>
 #include <gst/gst.h>
 
 #include "plugin/films/film_reader.h"

@@ -12,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include <glib.h>
 #include <gst/gst.h>
 
 #include "plugin/films/video_choice.h"

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "core/grip/string_geometry.h"
-
 namespace spidar {
 namespace {
 

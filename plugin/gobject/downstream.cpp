@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/gobject/downstream.h"
 
-#include <utility>
-
 namespace spidar {
 namespace {
 

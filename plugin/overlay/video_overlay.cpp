@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/overlay/video_overlay.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 

@@ -6,8 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <glib.h>
-
 #include "core/touch/contact_force.h"
 #include "plugin/properties/device_rows.h"
 #include "plugin/properties/property_table.h"

@@ -10,10 +10,8 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <functional>
 #include <spawn.h>
 #include <stdexcept>
-#include <string>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -24,14 +22,11 @@
 
 #include <gst/gst.h>
 
-#include "core/json_text.h"
 #include "plugin/films/file_end.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/film_reader.h"
-#include "plugin/films/part_file.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tools/film_watch.h"
-#include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "plugin/films/stream_content.h"
-#include "plugin/gobject/ref.h"
 
 namespace spidar::tools {
 namespace {

@@ -3,30 +3,20 @@
 #include "plugin/tools/track_samples.h"
 
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
 #include <unistd.h>
-#include <vector>
-
-#include <gst/gst.h>
 
 #include "core/track/csv_track.h"
-#include "core/track/exchange_formats.h"
 #include "core/track/funscript.h"
 #include "core/track/track_reader.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/film_reader.h"
-#include "plugin/films/part_file.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_tags.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/whole_file.h"
 

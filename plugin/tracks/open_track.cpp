@@ -15,7 +15,6 @@
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/tracks/track_tags.h"
 
 namespace spidar::tracks {
 namespace {

@@ -33,7 +33,6 @@
 #include <string>
 
 #include <gst/base/gstbasesink.h>
-#include <gst/gst.h>
 
 #include "core/default_limits.h"
 #include "core/track/track_format.h"

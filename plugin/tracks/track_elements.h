@@ -4,7 +4,6 @@
 #pragma once
 
 #include <gst/base/gstbasesink.h>
-#include <gst/gst.h>
 
 G_BEGIN_DECLS
 

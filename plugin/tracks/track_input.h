@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <gst/audio/audio.h>
-#include <gst/gst.h>
 
 #include "core/fields.h"
 #include "core/track/track_format.h"

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <stdexcept>
-#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -16,7 +15,6 @@
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/sidecar.h"
-#include "plugin/tracks/track_input.h"
 #include "spidar/realtime/thread_setup.h"
 
 #undef GST_CAT_DEFAULT

@@ -4,8 +4,6 @@
 
 #include <sstream>
 
-#include <gst/gst.h>
-
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/ref.h"
 

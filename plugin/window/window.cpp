@@ -10,7 +10,6 @@
 #include <deque>
 #include <filesystem>
 #include <mutex>
-#include <optional>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <system_error>

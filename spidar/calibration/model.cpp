@@ -10,7 +10,6 @@
 
 #include "core/grip/matrices.h"
 #include "core/grip/pose_solver.h"
-#include "core/grip/string_geometry.h"
 
 namespace spidar::calibration {
 namespace {

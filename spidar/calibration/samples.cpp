@@ -2,12 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/calibration/samples.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "core/grip/pose_solver.h"
 #include "spidar/loop/haptic_loop.h"

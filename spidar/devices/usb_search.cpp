@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "spidar/device.h"
-#include "spidar/transports/usb_transport.h"
 
 namespace spidar {
 

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/force/motion_rendering.h"
-#include "spidar/profiles/profile.h"
 
 namespace spidar {
 namespace {

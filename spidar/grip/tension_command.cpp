@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/grip/tension_command.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace spidar {

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/guardian/guardian.h"
 
-#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <stdexcept>
 
-#include "spidar/realtime/line_writer.h"
 #include "spidar/realtime/thread_setup.h"
 
 namespace spidar {

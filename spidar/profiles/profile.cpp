@@ -2,9 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/profiles/profile.h"
 
-#include <algorithm>
 #include <set>
-#include <stdexcept>
 
 #include "spidar/install_folder.h"
 #include "spidar/profiles/profile_file.h"

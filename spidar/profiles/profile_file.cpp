@@ -7,12 +7,10 @@
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/grip/pose_solver.h"
-#include "spidar/profiles/profile.h"
 #include "spidar/profiles/toml.h"
 #include "spidar/text.h"
 

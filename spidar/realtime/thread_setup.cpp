@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <pthread.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>

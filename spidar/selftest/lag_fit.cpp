@@ -2,11 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/selftest/lag_fit.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 #include <Eigen/Dense>
 

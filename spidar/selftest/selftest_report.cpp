@@ -8,7 +8,6 @@
 #include <ostream>
 #include <string>
 
-#include "core/json_text.h"
 #include "spidar/grip/string_causes.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/text.h"

@@ -3,12 +3,10 @@
 #include "spidar/selftest/stick_test.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/selftest/hold.h"
 
 namespace spidar::selftest {
 namespace {

@@ -2,9 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/session/board_list.h"
 
-#include <algorithm>
 #include <filesystem>
-#include <string>
 #include <system_error>
 #include <unistd.h>
 

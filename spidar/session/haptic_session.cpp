@@ -8,7 +8,6 @@
 #include "spidar/grip/string_grip.h"
 #include "spidar/limits/vibration_memory.h"
 #include "spidar/loop/loop_thread.h"
-#include "spidar/loop/tick_trace.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {

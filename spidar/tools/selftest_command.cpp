@@ -4,7 +4,6 @@
 #include <iostream>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "core/grip/string_geometry.h"
 #include "core/json_text.h"

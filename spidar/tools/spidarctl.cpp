@@ -7,10 +7,8 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
-#include <stdexcept>
 #include <termios.h>
 #include <unistd.h>
-#include <utility>
 #include <vector>
 
 #include "spidar/loop/haptic_loop.h"

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/touch/touch_rendering.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 

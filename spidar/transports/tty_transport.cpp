@@ -20,7 +20,6 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/text.h"
-#include "spidar/transports/transport.h"
 
 namespace spidar {
 namespace {

@@ -3,7 +3,6 @@
 #include "spidar/transports/usb_transport.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <fcntl.h>
 #include <poll.h>

@@ -3,7 +3,6 @@
 #include "core/motion/camera/camera_choice.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/camera/motion_models.h"
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 

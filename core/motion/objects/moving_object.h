@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "core/motion/camera/motion_models.h"

@@ -3,7 +3,6 @@
 #include "core/motion/objects/object_motion.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/quantile.h"
 

@@ -2,12 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "core/motion/objects/object_tracker.h"
 
-#include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "core/motion/layers/burned_in.h"
-#include "core/motion/layers/regions.h"
 
 namespace spidar {
 namespace {

@@ -3,7 +3,6 @@
 #include "core/motion/objects/turn_meter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <complex>
 #include <iterator>
 

@@ -4,7 +4,6 @@
 
 #include <cstdio>
 #include <stdexcept>
-#include <utility>
 
 #include "plugin/frame/object_metas.h"
 #include "plugin/gobject/bus_messages.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 
 #include "plugin/filter/choice/feel_file.h"

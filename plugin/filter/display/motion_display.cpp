@@ -12,7 +12,6 @@
 #include "plugin/filter/reports/motion_meta.h"
 #include "plugin/frame/object_metas.h"
 #include "plugin/gobject/downstream.h"
-#include "plugin/overlay/video_overlay.h"
 
 namespace spidar::filter {
 

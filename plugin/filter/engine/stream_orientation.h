@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include <gst/gst.h>
 #include <gst/video/video.h>
 
 #include "core/orientation.h"

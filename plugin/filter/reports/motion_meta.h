@@ -3,7 +3,6 @@
 /// The element's report of a frame in the meta that travels with it.
 #pragma once
 
-#include <gst/gst.h>
 #include <gst/video/video.h>
 
 #include "plugin/frame/frame_report.h"

@@ -3,7 +3,6 @@
 #include "spidar/devices/cyverse/board.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "spidar/devices/cyverse/emulated.h"
 #include "spidar/link/device_kind.h"

@@ -3,14 +3,12 @@
 #include "spidar/devices/force_feedback/evdev_list.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dirent.h>
 #include <fcntl.h>
 #include <filesystem>
-#include <linux/input.h>
 #include <memory>
 #include <system_error>
 #include <unistd.h>

@@ -3,7 +3,6 @@
 #include "spidar/devices/force_feedback/evdev_transport.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -12,11 +11,8 @@
 #include <string_view>
 #include <unistd.h>
 #include <utility>
-#include <vector>
 
 #include "spidar/device.h"
-#include "spidar/devices/force_feedback/evdev_list.h"
-#include "spidar/transports/transport.h"
 
 namespace spidar {
 namespace {

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <utility>
 
-#include "spidar/device.h"
 #include "spidar/link/board_parts.h"
 #include "spidar/realtime/thread_setup.h"
 

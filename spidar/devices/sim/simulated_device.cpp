@@ -8,10 +8,8 @@
 #include <cmath>
 #include <mutex>
 #include <stdexcept>
-#include <string>
 #include <utility>
 
-#include "spidar/devices/sim/grip_model.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/seqlock.h"
 #include "spidar/realtime/spsc_ring.h"

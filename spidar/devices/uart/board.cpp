@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "spidar/devices/uart/emulated.h"
-#include "spidar/link/board_parts.h"
 #include "spidar/link/device_kind.h"
 #include "spidar/transports/tty_transport.h"
 
