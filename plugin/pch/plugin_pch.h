@@ -22,6 +22,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <gst/gst.h>
 #include <gst/video/video.h>
