@@ -54,13 +54,18 @@ void exchange_until(StringDevice& device, const MotorVolts& volts, const Conditi
   });
 }
 
-/// What spidarctl says on a machine that is too busy: it, or its guardian, had no processor time.
+/// What spidarctl says on a machine that is too busy: it, its guardian, or the thread that talks to
+/// its board had no processor time.
 inline bool stood_still(const std::string& log) {
   return log.find("this program stood still") != std::string::npos;
 }
 inline bool is_unguarded(const std::string& log) {
   return log.find("the guardian (spidar-guardian), without which no motor pulls") !=
          std::string::npos;
+}
+inline bool is_disturbed(const std::string& log) {
+  return stood_still(log) || is_unguarded(log) ||
+         log.find(": does not answer any more; check cable and power") != std::string::npos;
 }
 
 /// The guardian that a process, by default this one, has started; 0 when there is none.

@@ -189,6 +189,7 @@ TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
   }
 }
 
+/// Tried again on a machine that is too busy for it.
 TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
   const UsbPort& port = plug(0, "sh4");
   struct Case {
@@ -202,9 +203,10 @@ TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
                              {"7  nothing              still ",
                               "Switch on the supply of the motors", "wiring: no answer"}},
                         Case{"calibrate usb --centre", 3, {"nothing is calibrated"}}}) {
-    const CommandResult outcome =
-        run(spidarctl(c.arguments + std::string(" --yes --profile spidar-g6x3-v2-r")));
-    if (stood_still(outcome.text) || is_unguarded(outcome.text)) GTEST_SKIP() << outcome.text;
+    CommandResult outcome;
+    do {
+      outcome = run(spidarctl(c.arguments + std::string(" --yes --profile spidar-g6x3-v2-r")));
+    } while (is_disturbed(outcome.text));
     EXPECT_EQ(outcome.status, c.status) << outcome.text;
     for (const char* part : c.says)
       EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
