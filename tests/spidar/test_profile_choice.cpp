@@ -189,7 +189,7 @@ TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
   }
 }
 
-/// Tried again on a machine that is too busy for it.
+/// On a machine that is too busy for it, it is tried three times.
 TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
   const UsbPort& port = plug(0, "sh4");
   struct Case {
@@ -204,9 +204,9 @@ TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
                               "Switch on the supply of the motors", "wiring: no answer"}},
                         Case{"calibrate usb --centre", 3, {"nothing is calibrated"}}}) {
     CommandResult outcome;
-    do {
+    for (int tries = 0; tries == 0 || (tries < 3 && is_disturbed(outcome.text)); ++tries)
       outcome = run(spidarctl(c.arguments + std::string(" --yes --profile spidar-g6x3-v2-r")));
-    } while (is_disturbed(outcome.text));
+    if (is_disturbed(outcome.text)) GTEST_SKIP() << outcome.text;
     EXPECT_EQ(outcome.status, c.status) << outcome.text;
     for (const char* part : c.says)
       EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
