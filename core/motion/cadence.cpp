@@ -128,8 +128,9 @@ int64_t Cadence::learnt_ns() const {
   // This also holds when the picture begins to move again after a rest.
   if (const int64_t median = median_ns(); is_alike_but_for_one(median)) return median;
   for (size_t pictures = shown_.size(); pictures >= kMinPictures; pictures /= 2) {
-    if (const double even_ns = even_interval_ns(pictures); even_ns > 0)
+    if (const double even_ns = even_interval_ns(pictures); even_ns > 0) {
       return std::llround(even_ns);
+    }
   }
   return 0;
 }
