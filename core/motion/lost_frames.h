@@ -21,7 +21,7 @@ class LostFrames {
       const double if_lost = static_cast<double>(interval_ns) / static_cast<double>(shown_for_ns);
       const double change = std::abs(std::log(speed_px_s / last_px_s_));
       const double change_if_lost = std::abs(std::log(speed_px_s * if_lost / last_px_s_));
-      if (change_if_lost + std::log(1 + kSameSpeed) < change) factor = if_lost;
+      if (change_if_lost + std::log(1 + kCloserBy) < change) factor = if_lost;
     }
     last_px_s_ = factor * speed_px_s;
     return factor;
@@ -31,8 +31,9 @@ class LostFrames {
   void reset() { last_px_s_ = 0; }
 
  private:
-  /// Speeds that differ by less than this fraction count as equal.
-  static constexpr double kSameSpeed = 0.2;
+  /// The other speed has to be closer by more than this fraction. A judgement, not derived: where
+  /// both are about as close, noise would choose.
+  static constexpr double kCloserBy = 0.2;
 
   double last_px_s_ = 0;  ///< the previous speed, corrected
 };
