@@ -6,7 +6,8 @@ import sys
 import termios
 import time
 
-from records import append_row, read_rows, utc_now
+from chain import utc_now
+from records import append_row, read_rows
 from trials import STEPS
 
 # Few people read English faster (M. Brysbaert, How many words do we read per minute?, 2019: most 175 to 300 a minute).

@@ -1,25 +1,47 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""A chain of digests over all that a study keeps, written as it goes: what is changed, taken out or added later does not fit.
+"""A chain of digests over all that a study keeps, written as it goes: what is changed, moved, removed or added later does not fit.
 
-ANSWERS.csv.chain has an entry for each row of a table, each file that is written as a whole, and each session. Its digest
-is of a random salt, the name of the file and what was written; its link of the link before and the digest. Who rewrites
-files and chain together is found only by a link that was noted elsewhere, which the end of a session prints.
+ANSWERS.csv.chain has an entry for each session and its end, each row of a table, each file, each clip before it is played,
+and each look at the answers. An entry's digest covers a random salt, its time, its name and its content; its link covers the
+link before, its kind and its digest. A link therefore stands for all that came before, and whoever writes the chain anew
+changes the codes that sessions have printed. When a participant withdraws, times, names and salts of their entries are
+deleted, so that nobody can try what the digests were of.
 """
 
 import csv
 import hashlib
+import io
 import os
+import platform
 import secrets
+from contextlib import contextmanager
+from datetime import datetime, timezone
 from pathlib import Path
 
-COLUMNS = ["file", "salt", "digest", "link"]
-# In place of a file. CUT_OFF: the entry before is of what was not written any more. WITHDRAWN, with a number: of entries
-# whose salt is gone, because their participant is; and, with a salt, the entry of the digests of these.
-SESSION, END, CUT_OFF, WITHDRAWN = "session", "end", "cut off", "withdrawn"
+COLUMNS = ["kind", "time_utc", "name", "salt", "digest", "link"]
 TABLES = ("", ".participants", ".presentations", ".briefings", ".thresholds", ".exports")
-FILES = (".settings.json", ".preview.json")
+SETTINGS = ".settings.json"
+TRACES = ("", ".haptic", ".screen")
+# The kinds of entries, and what each may follow. The name of a session is its machine, of a row its table, of a file what
+# its path has beyond that of the answers, of a clip that of its traces, of a look the number of participants; `withdrawn`
+# names the lines that were made unreadable. A session that was killed has no end; if the power failed before the content of
+# its last entry was written, the next session says that this was `cut off`.
+WITH_CONTENT = ("row", "file")
+OF_PEOPLE = (*WITH_CONTENT, "clip")
+BEFORE = ("session", "cut off", *OF_PEOPLE, "look", "withdrawn")
+FOLLOWS = dict.fromkeys((*OF_PEOPLE, "look", "withdrawn", "end"), BEFORE) | {"session": ("", "end", *BEFORE), "cut off": ("session",)}
 NOTED = 8  # characters of a link, which somebody can note: 32 bits
+
+
+def utc_now():
+    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
+
+
+def line_of(row):
+    text = io.StringIO()
+    csv.writer(text, lineterminator="").writerow(row)
+    return text.getvalue().replace("\n", " ")
 
 
 def replace_file(path, text):
@@ -32,153 +54,197 @@ def replace_file(path, text):
     os.replace(new, path)
 
 
-def digest_of(salt, file, content):
-    return hashlib.sha256(b"\0".join((salt.encode(), file.encode(), content))).hexdigest()
+def hash_of(*parts):
+    return hashlib.sha256(b"\0".join(part if isinstance(part, bytes) else part.encode() for part in parts)).hexdigest()
 
 
-def link_of(before, digest):
-    return hashlib.sha256((before + digest).encode()).hexdigest()
+def fits(entry, content=b""):
+    return entry["digest"] == hash_of(entry["salt"], entry["time_utc"], entry["name"], content)
 
 
-def path_of(answers):
-    return Path(f"{answers}.chain")
+def lines_of(answers, name):
+    path = Path(f"{answers}{name}")
+    return path.read_bytes().decode().removesuffix("\n").split("\n") if path.exists() and path.stat().st_size else []
 
 
 def read(answers):
-    if not path_of(answers).exists():
-        return []
-    with open(path_of(answers), encoding="utf-8", newline="") as file:
-        return [row for row in csv.DictReader(file) if row["link"]]  # the last line may have been cut off
+    """Entries by line, from 2 on. The last line may have been cut off."""
+    path = Path(f"{answers}.chain")
+    lines = path.read_bytes().decode().split("\n")[1:-1] if path.exists() else []
+    rows = (row if len(row) == len(COLUMNS) else [""] * len(COLUMNS) for row in csv.reader(lines))
+    return dict(enumerate((dict(zip(COLUMNS, row)) for row in rows), 2))
 
 
-def write(answers, entries):
-    lines = [",".join(COLUMNS), *(",".join(entry[name] for name in COLUMNS) for entry in entries)]
-    replace_file(path_of(answers), "\n".join(lines) + "\n")
+def after(link, kind, name, content=b""):
+    entry = {"kind": kind, "time_utc": utc_now(), "name": name, "salt": secrets.token_hex(16)}
+    entry["digest"] = hash_of(entry["salt"], entry["time_utc"], name, content)
+    return entry | {"link": hash_of(link, kind, entry["digest"])}
 
 
-def add(answers, file, content):
-    """`file`: what its name has beyond that of the answers. Returns the new link."""
-    with open(path_of(answers), "a+b") as chain:
-        end = chain.seek(0, os.SEEK_END)
-        chain.seek(max(0, end - 4096))
-        last = chain.read()
-        whole = last[:last.rfind(b"\n") + 1]
-        chain.truncate(end - len(last) + len(whole))
-        before = whole.splitlines()[-1].decode().split(",")[-1] if whole else ""
-        if not whole:
-            chain.write((",".join(COLUMNS) + "\n").encode())
-            before = COLUMNS[-1]
-        salt = secrets.token_hex(16)
-        digest = digest_of(salt, file, content)
-        link = link_of(before, digest)
-        chain.write(f"{file},{salt},{digest},{link}\n".encode())
+def add(answers, kind, name="", content=b""):
+    with open(f"{answers}.chain", "a+b") as chain:
+        chain.seek(0)
+        whole = chain.read().rpartition(b"\n")[0].decode().split("\n")
+        head = "" if whole[0] else line_of(COLUMNS) + "\n"
+        chain.truncate(0 if head else len("\n".join(whole).encode()) + 1)
+        link = COLUMNS[-1] if head else whole[-1].rpartition(",")[2]
+        chain.write((head + line_of(after(link, kind, name, content).values()) + "\n").encode())
         chain.flush()
         os.fsync(chain.fileno())
-    return link
 
 
-def add_file(answers, file):
-    return add(answers, file, Path(f"{answers}{file}").read_bytes())
+def add_row(answers, table, line):
+    add(answers, "row", table, line.encode())
+    with open(f"{answers}{table}", "a", encoding="utf-8", newline="") as file:
+        file.write(line + "\n")
+        file.flush()
+        os.fsync(file.fileno())
 
 
-def rows_of(answers, table):
-    """The lines of a table with its head, as they are written."""
-    path = Path(f"{answers}{table}")
-    return path.read_text(encoding="utf-8").split("\n")[:-1] if path.exists() else []
+def write_file(answers, name, text):
+    add(answers, "file", name, text.encode())
+    replace_file(f"{answers}{name}", text)
+
+
+def add_file(answers, name):
+    """Of one that is there."""
+    with open(f"{answers}{name}", "rb") as file:
+        os.fsync(file.fileno())
+        add(answers, "file", name, file.read())
+
+
+def cut_off(entries):
+    return {n - 2 for n, entry in entries.items() if entry["kind"] == "cut off"}
 
 
 def matched(entries, table, rows):
-    """For each row its entry, or None. Rows are in the order of their entries, unless somebody withdrew."""
-    left, found = [entry for entry in entries if entry["file"] == table], []
+    """For each row the line of its entry, or None: both have one order. And how many entries have no row."""
+    cut, found, begin = cut_off(entries), [], 0
+    left = [n for n, entry in entries.items() if n not in cut and entry["salt"] and (entry["kind"], entry["name"]) == ("row", table)]
     for row in rows:
-        entry = next((each for each in left if digest_of(each["salt"], table, row.encode()) == each["digest"]), None)
-        if entry:
-            left.remove(entry)
-        found.append(entry)
-    return found
+        place = next((i for i in range(begin, len(left)) if fits(entries[left[i]], row.encode())), None)
+        found.append(None if place is None else left[place])
+        begin = begin if place is None else place + 1
+    return found, len(left) - sum(map(bool, found))
 
 
-def digests(entries):
-    return ",".join(entry["digest"] for entry in entries).encode()
+def forget(answers, is_of):
+    """What is of a participant who withdraws, as `is_of(name, row)` tells."""
+    entries, rows = read(answers), {}
+    for table in TABLES:
+        lines = lines_of(answers, table)
+        rows |= dict(zip(matched(entries, table, lines)[0][1:], lines[1:]))
+    gone = {n for n, entry in entries.items() if entry["salt"] and entry["kind"] in OF_PEOPLE and
+            (n in cut_off(entries) or is_of(entry["name"], rows.get(n, "")))}
+    for n in gone:
+        entries[n] |= dict.fromkeys(("time_utc", "name", "salt"), "")
+    last = after(entries[max(entries)]["link"], "withdrawn", " ".join(map(str, sorted(gone))))
+    lines = [COLUMNS, *(entry.values() for entry in (*entries.values(), last))]
+    replace_file(f"{answers}.chain", "".join(line_of(line) + "\n" for line in lines))
 
 
-def forget(answers, rows, files):
-    """Of a participant who withdraws: nobody can try any more what their entries were of. `rows`: by table."""
-    entries = read(answers)
-    name = f"{WITHDRAWN} {1 + sum(entry['file'].startswith(WITHDRAWN) and entry['salt'] != '' for entry in entries)}"
-    gone = [entry for table, lines in rows.items() for entry in matched(entries, table, lines) if entry]
-    gone = [entry for entry in entries if entry in gone or entry["file"] in files]
-    for entry in gone:
-        entry["file"], entry["salt"] = name, ""
-    write(answers, entries)
-    add(answers, name, digests(gone))
-
-
-def is_there(answers, entry):
-    if entry["file"] in TABLES:
-        return any(digest_of(entry["salt"], entry["file"], row.encode()) == entry["digest"]
-                   for row in rows_of(answers, entry["file"]))
-    return True
-
-
-def begin(answers, machine):
-    """A session. A row is written after its entry: if the power failed between the two, the chain says so, and what was
-    written of the row is taken away."""
+@contextmanager
+def session(answers):
+    """All is written in one, after its entry. What is left of the last one without having been written as a whole is removed.
+    Prints what somebody is to note."""
     for path in (Path(f"{answers}{table}") for table in TABLES):
         text = path.read_text(encoding="utf-8") if path.exists() else ""
         if text and not text.endswith("\n"):
             replace_file(path, text[:text.rfind("\n") + 1])
+    last = [*read(answers).values()][-1:]
+    is_lost = any(entry["kind"] in WITH_CONTENT and not any(fits(entry, each) for each in contents_of(answers, entry)) for entry in last)
+    add(answers, "session", platform.node())
+    if is_lost:
+        add(answers, "cut off")
+    try:
+        yield
+    finally:
+        add(answers, "end")
+        print(f"\nNote with the form of consent: {codes(answers)[-1]}")
+
+
+def contents_of(answers, entry):
+    """What an entry may have been of."""
+    path = Path(f"{answers}{entry['name']}")
+    if entry["kind"] == "row":
+        return [line.encode() for line in lines_of(answers, entry["name"])]
+    return [path.read_bytes()] if path.exists() else []
+
+
+def codes(answers):
+    """What the ends of sessions have printed; last, of what came after them."""
     entries = read(answers)
-    if entries and not is_there(answers, entries[-1]):
-        add(answers, CUT_OFF, b"")
-    for file in FILES:
-        if Path(f"{answers}{file}").exists() and not any(entry["file"] == file for entry in entries):
-            add_file(answers, file)
-    add(answers, SESSION, machine.encode())
+    return [entry["link"][:NOTED] for n, entry in entries.items() if entry["kind"] == "end" or n == max(entries)]
 
 
-def end(answers):
-    """Of a session. Returns what somebody may note."""
-    return add(answers, END, b"")[:NOTED]
+def named(answers, kind):
+    return [entry["name"] for entry in read(answers).values() if entry["kind"] == kind]
 
 
-def ends(answers):
-    return [entry["link"][:NOTED] for entry in read(answers) if entry["file"] == END]
+def registered(answers):
+    """When the settings were written, and the code of that session."""
+    entries = read(answers)
+    line = next((n for n, entry in entries.items() if (entry["kind"], entry["name"]) == ("file", SETTINGS)), 0)
+    end = next((entry for n, entry in entries.items() if entry["kind"] == "end" and n > line > 0), {"link": ""})
+    return entries.get(line, {"time_utc": ""})["time_utc"], end["link"][:NOTED]
+
+
+def walk(entries):
+    """By line, what is wrong with an entry after those before it; and the clips in which the session was killed."""
+    wrong, killed, played, files, link, state, clip = {}, set(), set(), {SETTINGS}, COLUMNS[-1], "", ""
+    cut, gone = cut_off(entries), {n for entry in entries.values() if entry["kind"] == "withdrawn" for n in entry["name"].split()}
+    for n, entry in entries.items():
+        kind, name = entry["kind"], entry["name"]
+        if entry["link"] != hash_of(link, kind, entry["digest"]):
+            wrong[n] = "does not follow from the line before"
+        elif state not in FOLLOWS.get(kind, ()):
+            wrong[n] = f'"{kind}" does not come after "{state}"'
+        elif not entry["salt"]:
+            if kind not in OF_PEOPLE or name or entry["time_utc"] or str(n) not in gone:
+                wrong[n] = "is unreadable, and not of who withdrew"
+        elif kind not in WITH_CONTENT and not fits(entry):
+            wrong[n] = "is not as it was written"
+        elif name not in TABLES if kind == "row" else name not in files if kind == "file" else kind == "clip" and name in played:
+            wrong[n] = f'"{kind} {name}" has no place here'
+        if kind in ("session", "end", "clip"):
+            killed, files, clip = killed | {clip}, files & {SETTINGS}, ""
+        if kind == "clip":
+            played, files, clip = played | {name}, {f".traces/{name}{trace}.csv" for trace in TRACES}, name
+        elif kind == "row" and name == ".presentations" and n not in cut:
+            files, clip = set(), ""
+        elif kind == "file" and n not in cut:
+            files = files - {name}
+        link, state = entry["link"], kind
+    return wrong, (killed | {clip}) - {""}
+
+
+def files_there(answers):
+    folder, name = Path(answers).parent, Path(answers).name
+    beside = {each.name[len(name):] for each in folder.iterdir() if each.is_file() and each.name.startswith(f"{name}.")}
+    return beside - {*TABLES, ".chain"} | {f".traces/{each.name}" for each in Path(f"{answers}.traces").glob("*")}
 
 
 def misfits(answers):
     """What is not as it was written, in sentences."""
-    entries = read(answers)
+    entries, cut = read(answers), cut_off(read(answers))
     if not entries:
-        yield f"{path_of(answers)}: is missing, so nobody knows whether anything was changed"
+        yield f"{answers}.chain: is missing, so nobody knows whether anything was changed"
         return
-    before = COLUMNS[-1]
-    for n, entry in enumerate(entries, 2):
-        if entry["link"] != link_of(before, entry["digest"]):
-            yield f"{path_of(answers)}:{n}: does not follow from the line before"
-        before = entry["link"]
-    written = [entry for entry, after in zip(entries, [*entries[1:], {"file": ""}]) if after["file"] != CUT_OFF]
+    wrong, killed = walk(entries)
+    yield from (f"{answers}.chain:{n}: {said}" for n, said in wrong.items())
     for table in TABLES:
-        rows = rows_of(answers, table)
-        found = matched(written, table, rows)
-        for n, (row, entry) in enumerate(zip(rows, found), 1):
-            if not entry:
-                yield f"{answers}{table}:{n}: was not written so: {row}"
-        missing = sum(entry["file"] == table for entry in written) - sum(map(bool, found))
+        rows = lines_of(answers, table)
+        found, missing = matched(entries, table, rows)
+        yield from (f"{answers}{table}:{n}: was not written so, or not here: {row}" for n, (row, entry) in enumerate(zip(rows, found), 1)
+                    if not entry)
         if missing:
             yield f"{answers}{table}: {missing} of the rows that were written are not in it"
-    gone = {entry["file"]: entry for entry in written if entry["file"].startswith(WITHDRAWN) and entry["salt"]}
-    for name in dict.fromkeys([*gone, *(entry["file"] for entry in written if not entry["salt"])]):
-        its, entry = [each for each in written if each["file"] == name and not each["salt"]], gone.get(name)
-        if not entry or digest_of(entry["salt"], name, digests(its)) != entry["digest"]:
-            yield f"{path_of(answers)}: entries are unreadable that are not of who withdrew"
-    left = sum(row.startswith(",") for row in rows_of(answers, ".participants"))
-    if left != len(gone):
-        yield f"{path_of(answers)}: {len(gone)} withdrew, and {left} of the participants"
-    newest = {entry["file"]: entry for entry in written if entry["file"] in FILES or entry["file"].startswith(".traces/")}
-    for file in dict.fromkeys([*FILES, *newest]):
-        path, entry = Path(f"{answers}{file}"), newest.get(file)
+    files = {entry["name"]: entry for n, entry in entries.items() if entry["kind"] == "file" and entry["salt"] and n not in cut}
+    for name in sorted({SETTINGS} | files.keys() | files_there(answers)):
+        path = Path(f"{answers}{name}")
         if not path.exists():
             yield f"{path}: is missing"
-        elif not entry or digest_of(entry["salt"], file, path.read_bytes()) != entry["digest"]:
+        elif name in files and not fits(files[name], path.read_bytes()):
             yield f"{path}: is not as it was written"
+        elif name not in files and not any(name == f".traces/{clip}{trace}.csv" for clip in killed for trace in TRACES):
+            yield f"{path}: is not in the chain"

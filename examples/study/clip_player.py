@@ -208,7 +208,7 @@ class Player:
             f"videoconvert name=before ! videoflip video-direction={turn} name=turned "
             f"videoflip video-direction={turn} name=back ! videoconvert ! videoscale ! {AHEAD} name=ahead ! {SINKS[self.output]}")
         get = self.pipeline.get_by_name
-        self.screen = Screen(self.pipeline, get("ahead").get_static_pad("src"))
+        self.screen = Screen(get("ahead").get_static_pad("src"))
         self.full_screen = FullScreen(self.pipeline) if self.output == "window" else None
         self.pipeline.add(self.filter)
         get("turned").link(self.filter)

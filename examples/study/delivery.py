@@ -65,20 +65,39 @@ def times_noticed(delivered, wanted):
                    size(delivered[:, 3:] - torque) / np.maximum(FELT_NM, WEBER_OF_TORQUE * size(torque))], axis=0)
 
 
-def picture_late_ms(wanted, ticks, screen):
-    """For each tick, for how long the picture that should be on the screen has not been shown; and for how long one stood,
-    at most. `screen`: running_ns of each frame, and shown_ns, empty if it was dropped."""
-    frames_ns = [wanted[0][0]]
-    for time_ns, *_ in wanted[1:-1]:  # of the motion, halfway since the frame before; the last row is the clip's end
-        frames_ns.append(2 * time_ns - frames_ns[-1])
-    shown = np.array(sorted([[int(row["running_ns"]), int(row["shown_ns"])] for row in screen if row["shown_ns"]],
-                            key=lambda frame: frame[1]) or [[0, 2**62]])
-    newest = np.searchsorted(shown[:, 1], ticks["monotonic_ns"], side="right") - 1
-    on_screen_ns = np.where(newest >= 0, shown[newest, 0], -MS_NS)
-    due_ns = np.append(frames_ns, 2**62)[np.searchsorted(frames_ns, on_screen_ns + MS_NS // 2)]
-    frame_ns = float(np.median(np.diff(frames_ns))) if len(frames_ns) > 1 else 0
-    stood_ns = np.diff([ticks["monotonic_ns"][0], *shown[:, 1], ticks["monotonic_ns"][-1] - frame_ns]).max()
-    return (np.maximum(0, ticks["running_ns"] - due_ns) / MS_NS).astype(int), stood_ns / MS_NS, frame_ns / MS_NS
+class Pictures:
+    """Which frame was on the screen when. `screen`: running_ns of each frame, and shown_ns, empty if it was dropped."""
+
+    def __init__(self, wanted, ticks, screen):
+        self.frames_ns = [wanted[0][0]]
+        for time_ns, *_ in wanted[1:-1]:  # of the motion, halfway since the frame before; the last row is the clip's end
+            self.frames_ns.append(2 * time_ns - self.frames_ns[-1])
+        self.shown = np.array(sorted([[int(row["running_ns"]), int(row["shown_ns"])] for row in screen if row["shown_ns"]],
+                                     key=lambda frame: frame[1]) or [[0, 2**62]])
+        self.ticks = ticks
+        self.frame_ms = float(np.median(np.diff(self.frames_ns))) / MS_NS if len(self.frames_ns) > 1 else 0
+
+    def stood_ms(self):
+        """For how long one was on the screen, at most."""
+        ends_ns = self.ticks["monotonic_ns"][0], self.ticks["monotonic_ns"][-1] - self.frame_ms * MS_NS
+        return np.diff([ends_ns[0], *self.shown[:, 1], ends_ns[1]]).max() / MS_NS
+
+    def lag_ms(self):
+        """For each tick, by how much the picture on the screen is behind it (or, below 0, ahead of it) in the clip."""
+        newest = np.searchsorted(self.shown[:, 1], self.ticks["monotonic_ns"], side="right") - 1
+        on_screen_ns = np.where(newest >= 0, self.shown[newest, 0], -MS_NS)
+        next_ns = np.append(self.frames_ns, 2**62)[np.searchsorted(self.frames_ns, on_screen_ns + MS_NS // 2)]
+        running_ns = self.ticks["running_ns"]
+        return ((np.maximum(0, running_ns - next_ns) + np.minimum(0, running_ns - on_screen_ns)) / MS_NS).astype(int)
+
+    def drift_ms(self):
+        """By how much the time of the clip and the clock went apart, of ticks or pictures: it is as long as it should be, and
+        evenly so."""
+        return max(np.ptp(self.ticks["monotonic_ns"] - self.ticks["running_ns"]), np.ptp(self.shown[:, 1] - self.shown[:, 0])) / MS_NS
+
+    def stray_ms(self):
+        """How far a picture is from those of the preview."""
+        return np.abs(np.subtract.outer(self.frames_ns, self.shown[:, 0])).min(axis=0).max() / MS_NS
 
 
 class Hand:
@@ -102,8 +121,8 @@ class Hand:
         self.newest = np.maximum(np.searchsorted(self.ticks["running_ns"], self.time_ns + MS_NS, side="left") - 1, 0)
         wrenches = np.array([[float(row[f"delivered_{name}"]) for name in WRENCH] for row in playing])
         self.delivered = np.nan_to_num(wrenches, nan=1e9)[self.newest]  # what is no number is surely noticed
-        late_ms, self.stood_ms, self.frame_ms = picture_late_ms(wanted, self.ticks, rows_of(screen_trace))
-        self.late_ms = late_ms[self.newest]
+        self.pictures = Pictures(wanted, self.ticks, rows_of(screen_trace))
+        self.picture_lag_ms = self.pictures.lag_ms()[self.newest]
 
     def later(self, lag_ms, wrenches=None):
         """The wanted wrench, or another one, so much later."""
@@ -132,7 +151,7 @@ class Hand:
     def noticed(self):
         """times_noticed() around each millisecond, of the picture on the screen, with the lag that fits best."""
         reach = LATE_MS + JITTER_MS
-        times = np.stack([times_noticed(self.delivered, self.later(self.late_ms + lag)) for lag in range(-reach, reach + 1)])
+        times = np.stack([times_noticed(self.delivered, self.later(self.picture_lag_ms + lag)) for lag in range(-reach, reach + 1)])
         times = minimum_filter1d(times, 2 * JITTER_MS + 1, axis=0)[JITTER_MS:-JITTER_MS]
         return maximum_filter1d(times, EVEN_MS, axis=1).min(axis=0)
 
@@ -171,7 +190,8 @@ def cause(hand, frame_trace, part):
     """What the traces say of a force that was not right in a part of the clip, in brackets, or nothing."""
     lag_ms = hand.lag_ms() if hand.wanted.any() else 0
     reasons = [f"{abs(lag_ms)} ms too {'late' if lag_ms > 0 else 'early'}"] * (lag_ms != 0)
-    for what, amount_ms in ("the picture stood for", hand.late_ms[part].max()), ("no tick came for", hand.waited_ms(part)):
+    for what, amount_ms in (("the picture stood for", hand.picture_lag_ms[part].max()), ("no tick came for", hand.waited_ms(part)),
+                            ("the picture was ahead for", -hand.picture_lag_ms[part].min())):
         reasons += [f"{what} {amount_ms:.0f} ms too long"] if amount_ms > JITTER_MS else []
     late = np.isin(hand.found[hand.newest[part]], ("held", "expired")).mean()
     reasons += [f"frames were late in {100 * late:.0f} % of that time"] * bool(late)
@@ -195,10 +215,13 @@ def judge(haptic_trace, frame_trace, screen_trace, wanted, is_muted, others=()):
     if not_running > WEBER:
         state = (hand.device - Counter(running=hand.count)).most_common(1)[0][0]
         return share, f"the device was {state} in {100 * not_running:.0f} % of the time"
-    if hand.stood_ms > max(FROZEN_MS, 2 * hand.frame_ms):
-        return share, f"the picture stood still for {hand.stood_ms:.0f} ms"
-    if hand.waited_ms() > FROZEN_MS:
-        return share, f"the device stood still, or was elsewhere in the clip, for {hand.waited_ms():.0f} ms"
+    pictures = hand.pictures
+    for amount_ms, most_ms, said in ((pictures.stood_ms(), max(FROZEN_MS, 2 * pictures.frame_ms), "the picture stood still for {:.0f} ms"),
+                                     (hand.waited_ms(), FROZEN_MS, "the device stood still, or was elsewhere in the clip, for {:.0f} ms"),
+                                     (pictures.drift_ms(), FROZEN_MS, "the clip was longer or shorter than it should be by {:.0f} ms"),
+                                     (pictures.stray_ms(), JITTER_MS, "a picture came {:.0f} ms from where the preview has one")):
+        if amount_ms > most_ms:
+            return share, said.format(amount_ms)
     noticed = hand.noticed()
     worst = int(noticed.argmax())
     if noticed[worst] > 1 or share < 1 - WEBER and not is_muted:

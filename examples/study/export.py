@@ -14,9 +14,10 @@ import shutil
 from collections import defaultdict
 from pathlib import Path
 
+import chain
 from delivery import AXES, MS_NS, rows_of
 from perception import THRESHOLDS
-from records import append_row, read_answers, read_rows, read_settings, utc_now
+from records import append_row, read_answers, read_rows, read_settings
 from report import misfits
 from trials import CONDITIONS, QUESTIONS, STEPS
 
@@ -139,7 +140,8 @@ def export(path, folder):
         raise ValueError(f"{folder}: " + ("exists; name a new folder, or remove that one" if os.path.lexists(folder) else
                                           f"there is no folder {folder.parent}"))
     folder.mkdir()
-    append_row(path, ".exports", EXPORT_COLUMNS, [folder.resolve(), utc_now()])
+    with chain.session(path):
+        append_row(path, ".exports", EXPORT_COLUMNS, [folder.resolve(), chain.utc_now()])
     write_json(folder / "dataset_description.json", {
         "Name": "A study of haptic feedback for films, with gst-spidar", "BIDSVersion": BIDS_VERSION, "DatasetType": "raw",
         "GeneratedBy": [{"Name": "gst-spidar", "Version": settings["version"]}]})

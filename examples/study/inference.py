@@ -15,12 +15,17 @@ freedom of e (F. Allan, J. Wishart, A Method of Estimating the Yield of a Missin
 several, by iteration, F. Yates, 1933).
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import t
+from scipy.optimize import brentq
+from scipy.stats import norm, t
 
 MANY_CLIPS = 12
+FIRST_PEOPLE = 4  # who tell nothing yet: t is no normal deviate. With them, looks after each of 24 people err in 5.5 %
+FARTHEST = 8  # standard deviations, of a bound
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(301)  # more change no level of 48 looks by 1e-6
 FILLS = 30  # times; each brings the values nearer by the part that is missing of a row and of a column
 
 
@@ -93,3 +98,22 @@ def holm(values):
         largest = max(largest, min(1.0, (len(values) - rank) * values[place]))
         corrected[place] = largest
     return corrected
+
+
+def levels(looks, planned, level):
+    """At which p looks at the answers of so many people (rising) are significant, of so many who are planned, so that all looks
+    together err in `level` of the studies: the function of K. Lan and D. DeMets (Discrete Sequential Boundaries for Clinical
+    Trials, 1983) that is nearly the bounds of O'Brien and Fleming, two-sided. The sum of the answers is a Brownian motion, whose
+    density inside the bounds is integrated from look to look."""
+    spent = lambda part: 4 * norm.sf(norm.isf(level / 4) / math.sqrt(part)) if part else 0.0
+    found, places, shares, before = [], np.zeros(1), np.ones(1), 0
+    for now in (1 if people >= planned else max(0, people - FIRST_PEOPLE) / (planned - FIRST_PEOPLE) for people in looks):
+        if now == before:
+            found.append(0.0)
+            continue
+        step, most, spend = math.sqrt(now - before), FARTHEST * math.sqrt(now), spent(now) - spent(before)
+        beyond = lambda bound: shares @ (norm.sf((bound - places) / step) + norm.sf((bound + places) / step)) - spend
+        bound = brentq(beyond, 0, most) if beyond(most) < 0 else most  # so early, nothing is spent
+        found.append(2 * norm.sf(bound / math.sqrt(now)) if bound < most else 0.0)
+        shares, places, before = shares @ norm.pdf(bound * NODES, places[:, None], step) * bound * WEIGHTS, bound * NODES, now
+    return found

@@ -66,8 +66,9 @@ def parse(description, arguments):
                      help="send force, pose, and markers of frames and trials to the Lab Streaming Layer")
     for command in design, threshold:
         command.set_defaults(lsl=False, question=[], primary=ANALYSIS["primary"], practice="")
-    design.set_defaults(headless=False)
+    design.set_defaults(headless=False, answers="")
     register.set_defaults(lsl=False, headless=False, participant="-")
+    run.set_defaults(participants=None)
     threshold.set_defaults(clips=[], paper=False)
     report = commands.add_parser("report", help="what was answered, and what differs")
     report.add_argument("answers", metavar="ANSWERS.csv", nargs="+", help="of several machines, each with files of its own")
@@ -81,12 +82,12 @@ def parse(description, arguments):
     split = arguments.index("--") if "--" in arguments else len(arguments)
     options, properties = parser.parse_args(arguments[:split]), arguments[split + 1:]
     if options.command in ("run", "register", "threshold"):
-        if not options.participant or "/" in options.participant:
+        if not options.participant.isprintable() or options.participant in ("", "participant") or "/" in options.participant:
             parser.error(f'"{options.participant}" cannot be a part of a file name: give the participant a code')
         if not 0 <= options.noise <= 1:
             parser.error(f"--noise {options.noise:g} is no volume: give 0 to 1")
-        if options.practice in options.clips:
-            parser.error(f"--practice {options.practice} is a clip of the study: give another one")
+        if options.command == "register" and options.participants < 1:
+            parser.error(f"--participants {options.participants}: give how many there will be")
         for question in options.question:
             if not all(question.partition("=")):
                 parser.error(f"--question {question} is not NAME=TEXT")

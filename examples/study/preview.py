@@ -124,11 +124,26 @@ def properties_of(alpha):
     return [] if alpha is None else [f"alpha={alpha:g}"]
 
 
-def choose(clips):
-    """The smallest alpha with which each clip has enough frames that differ, or the one with which the worst has most."""
-    worst = lambda alpha: min(by_alpha[alpha].apart for by_alpha in clips.values())
+def choose(clips, accept_alike=False):
+    """The smallest alpha with which enough frames of each clip differ, or the one with which the worst has most, of those that
+    any alpha helps. Raises ValueError that names the clips at fault."""
+    most = {name: max(clip.apart for clip in by_alpha.values()) for name, by_alpha in clips.items()}
+    helped = [name for name in clips if most[name] >= LEAST_APART] or list(clips)
+    worst = lambda alpha: min(clips[name][alpha].apart for name in helped)
     alphas = list(next(iter(clips.values())))
-    return next((alpha for alpha in alphas if worst(alpha) >= LEAST_APART), max(alphas, key=worst))
+    alpha = next((alpha for alpha in alphas if worst(alpha) >= LEAST_APART), max(alphas, key=worst))
+    still = [name for name, by_alpha in clips.items() if not any(clip.felt for clip in by_alpha.values())]
+    if still:
+        raise ValueError(f"{', '.join(still)}: no frame of it has a force that a hand feels ({FELT_N:g} N); choose another clip, in which "
+                         "something moves, or other properties")
+    alike = {name: most[name] for name in clips if most[name] < LEAST_APART} or {
+        name: clips[name][alpha].apart for name in clips if clips[name][alpha].apart < LEAST_APART}
+    if alike and not accept_alike:
+        shares = "; ".join(f"{name}: linear and nonlinear can be told apart in {100 * share:.0f} % of the frames that are felt"
+                           for name, share in alike.items())
+        raise ValueError(f"{shares}; at least {100 * LEAST_APART:.0f} % are needed: choose a clip in which slow and fast motion "
+                         "alternate (at a steady speed both are the same), or say --accept-alike")
+    return alpha
 
 
 def table(clips):
@@ -143,15 +158,3 @@ def table(clips):
             lines.append(f"{'given' if alpha is None else f'{alpha:g}':7}{100 * clip.felt:8.0f} {100 * clip.apart:8.0f} "
                          f"{100 * clip.difference:9.0f} {100 * clip.stronger:11.0f}   {forces}  {name}")
     return "\n".join(lines)
-
-
-def require_told_apart(clips, alpha, accept_alike):
-    """Raises ValueError with the figure of a clip in which the controllers are the same."""
-    for name, clip in ((name, by_alpha[alpha]) for name, by_alpha in clips.items()):
-        if clip.felt == 0:
-            raise ValueError(f"{name}: no frame of it has a force that a hand feels ({FELT_N:g} N); choose another clip, "
-                             "in which something moves, or other properties")
-        if clip.apart < LEAST_APART and not accept_alike:
-            raise ValueError(f"{name}: linear and nonlinear can be told apart in {100 * clip.apart:.0f} % of the frames "
-                             f"that are felt, and at least {100 * LEAST_APART:.0f} % are needed; choose a clip in which "
-                             "slow and fast motion alternate (at a steady speed both are the same), or say --accept-alike")

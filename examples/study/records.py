@@ -2,21 +2,17 @@
 # Copyright 2026 the gst-spidar authors
 """The files of a study: answers, participants, presentations, and the settings that everything was made with.
 
-Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .preview.json, .participants,
-.presentations, .briefings, .thresholds, .exports, .traces/, and .chain (chain.py)."""
+Of ANSWERS.csv, the others have the name with more behind it: .settings.json, .participants, .presentations, .briefings,
+.thresholds, .exports, .traces/, and .chain (chain.py)."""
 
 import csv
 import hashlib
-import io
 import json
-import os
 import re
 from dataclasses import dataclass, fields, replace
-from datetime import datetime, timezone
 from pathlib import Path
 
 import chain
-from chain import replace_file
 from perception import THRESHOLDS
 from trials import CONDITIONS, STEPS, Trial, schedule
 
@@ -39,31 +35,15 @@ class Answer:
 
 
 COLUMNS = [field.name for field in fields(Answer)]
-PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]  # participant: empty once they have withdrawn
+PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]
 THRESHOLD_COLUMNS = ["participant", *THRESHOLDS, "trials", "time_utc"]  # empty where not asked, or the answers did not settle
 PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
 
 
-def utc_now():
-    return datetime.now(timezone.utc).strftime("%Y-%m-%dT%H:%M:%SZ")
-
-
-def line_of(row):
-    text = io.StringIO()
-    csv.writer(text, lineterminator="").writerow(row)
-    return text.getvalue().replace("\n", " ")
-
-
 def append_row(answers, table, header, row):
-    """Appends a line to one of chain.TABLES, after the header in a new file, and flushes it to the disk."""
-    path = Path(f"{answers}{table}")
-    is_new = not path.exists() or not path.stat().st_size
-    for line in map(line_of, [header, row] if is_new else [row]):
-        chain.add(answers, table, line.encode())
-        with open(path, "a", encoding="utf-8", newline="") as file:
-            file.write(line + "\n")
-            file.flush()
-            os.fsync(file.fileno())
+    """Appends a line to one of chain.TABLES, after the header in a new file."""
+    for each in [row] if chain.lines_of(answers, table) else [header, row]:
+        chain.add_row(answers, table, chain.line_of(each))
 
 
 def parse_answer(row):
@@ -97,23 +77,56 @@ def read_answers(path):
     return answers
 
 
+def clips_of(settings):
+    """Names in the order of the study, without the one to practise with."""
+    return [name for name in settings["clips_sha256"] if name != settings["practice"]]
+
+
+def digest_of_file(file):
+    with open(file, "rb") as content:
+        return hashlib.file_digest(content, "sha256").hexdigest()
+
+
+def names_of_clips(files, known):
+    """By file: a clip is known by its content, and keeps the name of the file in which it first came. `known`: digests by
+    name. Raises ValueError if two are the same."""
+    digests, names = {}, {}
+    for file in files:
+        digest = digest_of_file(file)
+        if digest in digests.values():
+            raise ValueError(f"{file}: has the same content as another clip that is given; give each clip once, and another one to "
+                             "practise with")
+        name = next((name for name, each in known.items() if each == digest), Path(file).name)
+        names[file] = f"{digest[:8]} {name}" if name in digests else name
+        digests[names[file]] = digest
+    return names, digests
+
+
 def names_of(paths):
-    """For each of several files of answers, what becomes of the codes in it: with the machine, where there are more.
-    Raises ValueError if they cannot be put together."""
-    first, machines = read_settings(paths[0]) or {}, []
-    for path in paths if len(paths) > 1 else ():
-        settings = read_settings(path) or {}
-        require_same(path, first | {"host": ""}, settings | {"host": ""})
-        if settings.get("host") in machines:
-            raise ValueError(f"{path}: is of the machine {settings['host']}, as another one is whose codes it may share")
-        machines.append(settings.get("host"))
-    return [(path, lambda code, machine=machine: f"{code}@{machine}" if code else code) for path, machine in
-            zip(paths, machines)] or [(paths[0], lambda code: code)]
+    """For each of several files of answers: what becomes of participants' codes in it, to which the machine is added, and of
+    clips. Raises ValueError if they cannot be put together."""
+    if len(paths) < 2:
+        return [(path, str, str) for path in paths]
+    found, machines, first, names = [], {}, None, {}
+    for path in paths:
+        settings = read_settings(path) or {"clips_sha256": {}, "practice": "", "host": ""}
+        digests, host, given = settings["clips_sha256"], settings["host"], set(chain.lines_of(path, "")[1:])
+        same = settings | {"host": "", "practice": digests.get(settings["practice"]), "clips_sha256": sorted(digests.values())}
+        first = first or same
+        require_same(path, first, same)
+        names = {digest: name for name, digest in digests.items()} | names  # those of the first
+        if host in machines:
+            raise ValueError(f"{path}: is of the machine {host}, as another one is whose codes it may share")
+        if any(2 * len(given & others) > min(len(given), len(others)) for others in machines.values()):
+            raise ValueError(f"{path}: has answers of another file, given at the same times: a copy is no other machine")
+        machines[host] = given
+        found.append((path, lambda code, host=host: f"{code}@{host}" if code else code, lambda clip, digests=digests: names[digests[clip]]))
+    return found
 
 
 def read_merged(paths):
     """All answers. Raises ValueError if there are none, or as names_of()."""
-    answers = [replace(answer, participant=name(answer.participant)) for path, name in names_of(paths)
+    answers = [replace(answer, participant=code(answer.participant), clip=clip(answer.clip)) for path, code, clip in names_of(paths)
                for answer in read_answers(path)]
     if not answers:
         raise ValueError(f"{paths[0]}: there are no answers in it")
@@ -136,47 +149,38 @@ class Participants:
         self.rows = read_rows(self.path)
 
     def index_of(self, participant):
-        taken = {row["participant"]: int(row["index"]) for row in self.rows if row["participant"]}
+        taken = {row["participant"]: int(row["index"]) for row in self.rows}
         if participant in taken:
             return taken[participant]
         return min(set(range(len(taken) + 1)) - set(taken.values()))
 
     def register(self, participant):
         if not any(row["participant"] == participant for row in self.rows):
-            append_row(self.answers, ".participants", PARTICIPANT_COLUMNS, [participant, self.index_of(participant), utc_now()])
-
-    def withdrew(self):
-        return sum(not row["participant"] for row in self.rows)
+            append_row(self.answers, ".participants", PARTICIPANT_COLUMNS, [participant, self.index_of(participant), chain.utc_now()])
 
     def withdraw(self, participant):
         """Deletes all that is kept of a participant but that somebody has left. Raises ValueError if nothing is."""
         if not any(row["participant"] == participant for row in self.rows):
             raise ValueError(f'{self.answers}: nobody in it is called "{participant}"')
-        traces = list(self.traces_of(participant))
-        rows = {table: [row for row in chain.rows_of(self.answers, table) if next(csv.reader([row]))[0] == participant]
-                for table in chain.TABLES}
-        chain.forget(self.answers, rows, [f".traces/{trace.name}" for trace in traces])
-        for trace in traces:
-            trace.unlink()
-        for table, gone in rows.items():
-            path = Path(f"{self.answers}{table}")
-            header, *lines, _ = path.read_text(encoding="utf-8").split("\n") if gone else [""] * 2
-            if table == ".participants":
-                left = line_of(["", *next(csv.reader(gone))[1:]])
-                chain.add(self.answers, table, left.encode())
-                lines = [left if line in gone else line for line in lines]
-            if gone:
-                replace_file(path, "\n".join([header, *(line for line in lines if line not in gone), ""]))
+        traces = self.traces_of(participant)
+        files = [f".traces/{trace}{kind}.csv" for trace in traces for kind in chain.TRACES]
+        is_theirs = lambda row: row != "" and next(csv.reader([row]))[0] == participant
+        with chain.session(self.answers):
+            chain.forget(self.answers, lambda name, row: name in traces or name in files or is_theirs(row))
+            for file in files:
+                Path(f"{self.answers}{file}").unlink(missing_ok=True)
+            for table in chain.TABLES:
+                if lines := chain.lines_of(self.answers, table):
+                    left = [lines[0], *(line for line in lines[1:] if not is_theirs(line))]
+                    chain.replace_file(f"{self.answers}{table}", "\n".join([*left, ""]))
 
     def traces_of(self, participant):
         """As the presentations say; of what was interrupted before it was one, by the longest code that the name has."""
         shown = {row["trace"]: row["participant"] for row in read_rows(f"{self.answers}.presentations")}
-        codes = sorted((row["participant"] for row in self.rows if row["participant"]), key=len, reverse=True)
-        for trace in list(Path(f"{self.answers}.traces").glob("*.csv")):
-            name = re.sub(r"(\.(haptic|screen))?\.csv$", "", trace.name)
-            by_name = (code for code in codes if re.fullmatch(re.escape(code) + r"-\d+(-\d+)?", name))
-            if (shown.get(name) or next(by_name, None)) == participant:
-                yield trace
+        codes = sorted((row["participant"] for row in self.rows), key=len, reverse=True)
+        by_name = lambda trace: next((code for code in codes if re.fullmatch(re.escape(code) + r"-\d+(-\d+)?", trace)), None)
+        traces = {re.sub(r"^\.traces/|(\.(haptic|screen))?\.csv$", "", name) for name in chain.files_there(self.answers)}
+        return {trace for trace in {*traces, *chain.named(self.answers, "clip")} if (shown.get(trace) or by_name(trace)) == participant}
 
 
 def differences(old, new, name=""):
@@ -188,15 +192,17 @@ def differences(old, new, name=""):
         yield f"{name} was {json.dumps(old, ensure_ascii=False)}, not {json.dumps(new, ensure_ascii=False)}"
 
 
-def read_settings(answers, kind="settings"):
-    """Nothing if the study has not begun. Raises ValueError if its settings are lost. `kind`: or the "preview"."""
-    path = Path(f"{answers}.{kind}.json")
+def read_settings(answers, part="settings"):
+    """Nothing if the study has not begun. Raises ValueError if its settings are lost. `part`: or the "preview"."""
+    path = Path(f"{answers}{chain.SETTINGS}")
     if path.exists():
         try:
-            return json.loads(path.read_text(encoding="utf-8"))
-        except (ValueError, RecursionError) as error:
+            settings = json.loads(path.read_text(encoding="utf-8"))
+            preview = settings.pop("preview")
+            return preview if part == "preview" else settings
+        except (ValueError, RecursionError, AttributeError, LookupError) as error:
             raise ValueError(f"{path}: is not as this program wrote it ({error}); put it back as it was") from error
-    if kind == "preview" or read_answers(answers):
+    if part == "preview" or read_answers(answers):
         raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
     return None
 
@@ -208,12 +214,11 @@ def digest_of(settings):
 def unfit(answers, path, settings):
     """Answers that belong to no presentation that counts, or to another one than was shown, in sentences."""
     counted = {(row["participant"], row["trial"]) for row in read_rows(f"{path}.presentations") if not row["problem"]}
-    clips = [clip for clip in settings["clips_sha256"] if clip != settings["practice"]]
     participants, shown, asked = Participants(path), {}, set()
     for answer in answers:
         who, said = answer.participant, f"{answer.participant}, trial {answer.trial}, {answer.question}"
         if who not in shown:
-            shown[who] = schedule(clips, participants.index_of(who), settings["seed"])
+            shown[who] = schedule(clips_of(settings), participants.index_of(who), settings["seed"])
         if (who, answer.trial, answer.question) in asked:
             yield f"{said}: answered twice, as where files of two machines were put together; give both files to report"
         elif (who, str(answer.trial)) not in counted:
@@ -231,9 +236,6 @@ def require_same(answers, old, new):
                          "another file")
 
 
-def write_settings(answers, settings, clips):
-    """`clips`: what their preview found."""
-    replace_file(f"{answers}.preview.json", json.dumps(clips, ensure_ascii=False) + "\n")
-    replace_file(f"{answers}.settings.json", json.dumps(settings, ensure_ascii=False, indent=1) + "\n")
-    for file in chain.FILES:
-        chain.add_file(answers, file)
+def write_settings(answers, settings, preview):
+    """`preview`: what was found in the clips."""
+    chain.write_file(answers, chain.SETTINGS, json.dumps(settings | {"preview": preview}, ensure_ascii=False) + "\n")

@@ -3,12 +3,12 @@
 """What a study will do, as a text for a registry such as OSF or AsPredicted, before its first participant."""
 
 from inference import MANY_CLIPS
-from records import digest_of
+from records import clips_of, digest_of
 from trials import CONDITIONS, PAIRS, QUESTIONS, families
 
 
-def text(settings, participants):
-    """`settings`: as they are kept beside the answers, whose digest the text names."""
+def text(settings, time_utc, code):
+    """`settings`: as they are kept beside the answers, whose digest the text names; `time_utc`, `code`: of the chain."""
     analysis = settings["analysis"]
     pairs = {question: ", ".join(" against ".join(pair) for pair in PAIRS[part])
              for part, questions in QUESTIONS.items() for question in questions}
@@ -23,7 +23,7 @@ def text(settings, participants):
         "Design", "Within participants: everyone rates every clip in each condition: "
         + "; ".join(", ".join(conditions) for conditions in CONDITIONS.values())
         + f". Orders are balanced over multiples of twelve and drawn with the seed {settings['seed']}; only codes are shown.", "",
-        "Sample", f"{participants} participants, {len(settings['clips_sha256']) - bool(settings['practice'])} clips.", "",
+        "Sample", f"{settings['participants']} participants, {len(clips_of(settings))} clips.", "",
         "Measures, from bad (1) to very good (5)", *(f"{name}: {each}" for name, each in asked.items()), "",
         "Analysis", f"Of the differences, by this version's report: quasi-F over people and clips; below {MANY_CLIPS} clips, "
         f"t over people, of these clips; level {analysis['level']:g}, Holm's correction in each family.",
@@ -34,5 +34,5 @@ def text(settings, participants):
         + (f" with profile {settings['profile']}" if settings["profile"] else "") + f", {' '.join(settings['properties'])}"
         + (f" alpha={settings['alpha_s_px']:g}" if settings["alpha_s_px"] is not None else ""),
         *(f"{clip}: SHA-256 {digest}" for clip, digest in settings["clips_sha256"].items()),
-        f"Settings: SHA-256 {digest_of(settings)}"]
+        f"Settings: SHA-256 {digest_of(settings)}; in the chain of digests at {time_utc}, whose code was then {code}"]
     return "\n".join(lines)

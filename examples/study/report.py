@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import chain
 from briefing import BELIEFS, RIGHT_BELIEF
-from inference import MANY_CLIPS, difference, holm
+from inference import MANY_CLIPS, difference, holm, levels
 from perception import THRESHOLDS, told_apart
-from records import Participants, names_of, read_answers, read_rows, read_settings, unfit
+from records import names_of, read_answers, read_rows, read_settings, unfit
 from trials import ANALYSIS, CONDITIONS, FAMILIES, FIRST_GOOD, PAIRS, family_of
 
 MOST_NAMED = 10
@@ -77,8 +77,7 @@ def compared(rows, analysis, family):
 
 
 def rows_of(paths, table):
-    return [row | {"participant": name(row["participant"])} for path, name in names_of(paths)
-            for row in read_rows(f"{path}{table}")] if paths else []
+    return [row | {"participant": code(row["participant"])} for path, code, _ in names_of(paths) for row in read_rows(f"{path}{table}")]
 
 
 def describe_study(paths):
@@ -88,13 +87,16 @@ def describe_study(paths):
         settings = read_settings(path)
         lines.append(", ".join(f"{name} {settings[name]}" for name in ("version", "device", "profile", "host", "seed")
                                if settings[name] != "") + (", the paper's setting" if settings["paper"] else "")
-                     + f"; sessions end with {', '.join(chain.ends(path))}")
+                     + "; registered {} with {}".format(*chain.registered(path)) * bool(settings["participants"])
+                     + f"; sessions end with {', '.join(chain.codes(path))}")
+        if killed := chain.walk(chain.read(path))[1]:
+            lines.append(f"the session was killed in {', '.join(sorted(killed))}")
     shown = rows_of(paths, ".presentations")
     failed = Counter(row["problem"] for row in shown if row["problem"])
     if shown:
         lines.append(f"{len(shown)} presentations, {sum(failed.values())} of which do not count"
                      + "".join(f"; {count}: {problem}" for problem, count in failed.items()))
-    withdrew = sum(Participants(path).withdrew() for path in paths)
+    withdrew = sum(len(chain.named(path, "withdrawn")) for path in paths)
     if withdrew:
         lines.append(f"withdrew: {withdrew}")
     return lines + [""] * bool(lines)
@@ -135,6 +137,25 @@ def misfits(paths):
     return found[:MOST_NAMED] + [f"… and {len(found) - MOST_NAMED} more"] * (len(found) > MOST_NAMED)
 
 
+def look(paths, people, level):
+    """Counts a look at the answers of so many people in the chains. Returns its level, None if there is none, and a line that
+    says why."""
+    planned, looks = read_settings(paths[0])["participants"], {int(name) for path in paths for name in chain.named(path, "look")}
+    if not planned:
+        return None, "NOT REGISTERED: no number of participants was fixed before the first answer, so no p is that of a test"
+    if people > max(looks, default=0):
+        looks.add(people)
+        for path in paths:
+            with chain.session(path):
+                chain.add(path, "look", str(people))
+    looks = sorted(looks)
+    if looks[-2:-1] >= [planned]:
+        return None, f"AFTER THE TEST: the level was spent when {planned} participants were reached, so no p is that of a test"
+    found = levels(looks, planned, level)[-1]
+    return found, (f"INTERIM, NOT THE TEST: " if looks[-1] < planned else "") + (
+        f"look {len(looks)}, at {looks[-1]} of {planned} participants: p counts below {found:.3g}, so that all looks together err in {100 * level:g} %")
+
+
 def report(answers, paths=(), exploratory=False):
     """`paths`: the files of these answers. Raises ValueError that names what is not as it was written, unless it is
     exploratory."""
@@ -143,13 +164,17 @@ def report(answers, paths=(), exploratory=False):
         raise ValueError("\n".join(["files are not as they were written; put them back, or say --exploratory, and that it is, "
                                     "wherever you publish it", *wrong]))
     analysis = read_settings(paths[0])["analysis"] if paths else ANALYSIS
+    rows, level = differences(answers), analysis["level"]
     lines = ["EXPLORATORY: files are not as they were written", *wrong, ""] if wrong else []
+    people = max((len(found) for key, found in rows.items() if family_of(key[1], analysis) == "primary"), default=0)
+    if paths and people and not wrong:
+        level, said = look(paths, people, level)
+        lines += [said, ""]
     lines += describe_study(paths)
     lines += distribution(ratings(answers), "answers")
     lines += ["", "As the paper counts, one answer of each person and condition (here the median over the clips):",
               *distribution(ratings(of_people(answers)), "people")]
     margin = analysis["margin_steps"]
-    rows = differences(answers)
     clips = min((len(each[0]) for each in rows.values()), default=MANY_CLIPS)
     lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher, for",
               "other people and " + ("clips like these, if no few of them carry most of it" if clips >= MANY_CLIPS else
@@ -158,7 +183,7 @@ def report(answers, paths=(), exploratory=False):
               "for the comparisons of the family."]
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
-        lines += ["", f"{family} (level {analysis['level']:g})", COLUMNS, *found] if found else []
+        lines += ["", f"{family} ({'no test' if level is None or wrong else f'level {level:.3g}'})", COLUMNS, *found] if found else []
     lines += describe_thresholds(paths)
     lines += describe_blinding(paths)
     saw = {row["participant"] for row in rows_of(paths, ".briefings")

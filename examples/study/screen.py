@@ -8,8 +8,7 @@ import time
 import gi
 
 gi.require_version("Gst", "1.0")
-gi.require_version("GstBase", "1.0")  # get_latency() of a sink is known by it
-from gi.repository import Gst, GstBase  # noqa: E402, F401
+from gi.repository import Gst  # noqa: E402
 
 COLUMNS = ["running_ns", "shown_ns"]  # shown_ns: of CLOCK_MONOTONIC; empty if the sink dropped the frame
 
@@ -22,31 +21,29 @@ def sink_in(element):
 
 
 class Screen:
-    """Looks at what goes into the sink behind `pad`. A frame is shown when it is due, or when it arrives if that is later:
-    a sink that stands still takes the next one late. Only frames that it has rendered were shown."""
+    """Looks at what goes into the sink behind `pad`, and what comes out of it: a frame is shown when the sink is done with it,
+    by this program's clock, whenever it was due. Only frames that the sink has rendered were shown."""
 
-    def __init__(self, pipeline, pad):
-        self.pipeline, self.pad, self.segment, self.rows = pipeline, pad, None, []
-        self.zero_ns = 2**62  # of the pipeline's clock, in CLOCK_MONOTONIC
-        pad.add_probe(Gst.PadProbeType.BUFFER | Gst.PadProbeType.EVENT_DOWNSTREAM, self.look)
+    def __init__(self, pad):
+        self.pad, self.segment, self.running_ns, self.rows = pad, None, None, []
+        kinds = Gst.PadProbeType.BUFFER | Gst.PadProbeType.EVENT_DOWNSTREAM | Gst.PadProbeType.EVENT_UPSTREAM
+        pad.add_probe(kinds, self.look)
 
     def look(self, _, info):
-        """In the streaming thread, after the sink is done with the frame before."""
-        event = info.get_event() if info.type & Gst.PadProbeType.EVENT_DOWNSTREAM else None
-        if event:
-            if event.type == Gst.EventType.SEGMENT:
-                self.segment = event.parse_segment()
-            return Gst.PadProbeReturn.OK
-        arrived_ns = time.monotonic_ns()
-        self.rows.append((self.segment.to_running_time(Gst.Format.TIME, info.get_buffer().pts), self.rendered(), arrived_ns))
-        self.compare_clocks()
+        """In the streaming thread, after the sink is done with a frame: it says how late that was (QOS), where it says so, or
+        takes what is next."""
+        event = info.get_event() if not info.type & Gst.PadProbeType.BUFFER else None
+        if event and info.type & Gst.PadProbeType.EVENT_UPSTREAM and event.type != Gst.EventType.QOS:
+            return Gst.PadProbeReturn.OK  # of another thread
+        if self.running_ns is not None:
+            done_ns, rendered = time.monotonic_ns(), self.rendered()
+            self.rows.append([self.running_ns, done_ns if rendered > self.before else ""])
+            self.running_ns = None
+        if event is None:
+            self.running_ns, self.before = self.segment.to_running_time(Gst.Format.TIME, info.get_buffer().pts), self.rendered()
+        elif event.type == Gst.EventType.SEGMENT:
+            self.segment = event.parse_segment()
         return Gst.PadProbeReturn.OK
-
-    def compare_clocks(self):
-        """Of many comparisons, the one with the least time between the two is the nearest."""
-        if clock := self.pipeline.get_clock():
-            clock_ns = clock.get_time()
-            self.zero_ns = min(self.zero_ns, time.monotonic_ns() - clock_ns)
 
     def sink(self):
         return sink_in(self.pad.get_peer().get_parent_element())
@@ -55,14 +52,5 @@ class Screen:
         return self.sink().get_property("stats").get_uint64("rendered")[1]
 
     def write(self, path):
-        """When the clip has ended, and still plays."""
-        self.compare_clocks()
-        due_ns, done = self.zero_ns + self.pipeline.get_base_time(), [rendered for _, rendered, _ in self.rows[1:]]
-        if self.rows:
-            due_ns += self.sink().get_latency() + self.sink().get_property("ts-offset")
-            done.append(self.rendered())
         with open(path, "w", encoding="utf-8", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(COLUMNS)
-            for (running_ns, before, arrived_ns), after in zip(self.rows, done):
-                writer.writerow([running_ns, max(arrived_ns, due_ns + running_ns) if after > before else ""])
+            csv.writer(file, lineterminator="\n").writerows([COLUMNS, *self.rows])

@@ -13,7 +13,6 @@ Needs python3-gi, gir1.2-gstreamer-1.0, gir1.2-gst-plugins-base-1.0 and python3-
 docs/start.md.
 """
 
-import hashlib
 import os
 import platform
 import signal
@@ -27,8 +26,9 @@ import chain
 import perception
 from briefing import GENTLE_N, Stopped, TakesNoPart, ask, brief, debrief, describe, read_line
 from options import parse
-from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, read_answers, read_merged,
-                     read_rows, read_settings, require_same, utc_now, write_settings)
+from chain import utc_now
+from records import (COLUMNS, PRESENTATION_COLUMNS, THRESHOLD_COLUMNS, Participants, append_row, clips_of, digest_of_file, names_of_clips,
+                     read_answers, read_merged, read_rows, read_settings, require_same, write_settings)
 from trials import CONDITIONS, QUESTIONS, Trial, analysis_of, open_questions, schedule
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
@@ -36,12 +36,6 @@ from own_files import require_other  # noqa: E402
 
 PRACTISED = ("with", "without")  # what a participant may expect at most and at least
 ATTEMPTS = 3  # presentations of a trial whose force is not delivered, before somebody has to look for the cause
-
-
-def hash_of(file):
-    """Raises OSError."""
-    with open(file, "rb") as content:
-        return hashlib.file_digest(content, "sha256").hexdigest()
 
 
 class Study:
@@ -60,9 +54,14 @@ class Study:
             raise ValueError(f"--primary {options.primary} is not asked: give one of {', '.join(sorted(asked))}")
         self.analysis = analysis_of(options.primary)
         self.properties = [f"max-force={GENTLE_N:g}", *(preview.PAPER if options.paper else []), *properties]
-        for clip in self.clip_files():  # all clips and properties are right before the first one is shown
-            clip_player.uri_of(clip)
-            require_other(getattr(options, "answers", ""), clip)
+        files = options.clips + [options.practice] * bool(options.practice)
+        for file in files:  # all clips and properties are right before the first one is shown
+            clip_player.uri_of(file)
+            require_other(options.answers, file)
+        self.old = read_settings(options.answers) if options.answers else None
+        names, self.digests = names_of_clips(files, (self.old or {}).get("clips_sha256", {}))
+        self.files = {name: file for file, name in names.items()}
+        self.practice = names.get(options.practice, "")
         filter_ = clip_player.make_filter(self.properties)
         self.device, self.profile, self.limit_N = (
             filter_.get_property(name) for name in ("device", "profile", "max-force"))
@@ -77,53 +76,43 @@ class Study:
         if self.streams:
             self.streams.mark(text, time.monotonic_ns())
 
-    def clip_files(self):
-        return self.options.clips + ([self.options.practice] if self.options.practice else [])
+    def measure(self, name, alphas, progress):
+        return self.preview.measure(self.files[name], self.properties, self.limit_N, not self.options.paper, alphas, progress)
 
     def design(self):
-        """For each clip and alpha, what differs, and the alpha to take."""
+        """For each clip and alpha, what differs, and the alpha to take. Raises ValueError if too little differs."""
         is_given = self.options.paper or any(each.startswith("alpha=") for each in self.properties)
-        progress = self.preview.Progress(self.options.clips)
-        clips = {clip: self.preview.measure(clip, self.properties, self.limit_N, not self.options.paper,
-                                            [None] if is_given else self.preview.ALPHAS_S_PX, progress)
-                 for clip in self.options.clips}
-        return clips, self.preview.choose(clips)
-
-    def print_design(self):
-        """Raises ValueError if too little differs."""
-        clips, alpha = self.design()
-        print(self.preview.table(clips))
-        self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
-        print("\nrun takes " + ("the alpha that is given" if alpha is None else f"alpha={alpha:g} s/px"))
+        clips = [name for name in self.files if name != self.practice]
+        progress = self.preview.Progress(clips)
+        found = {name: self.measure(name, [None] if is_given else self.preview.ALPHAS_S_PX, progress) for name in clips}
+        if self.options.command == "design":
+            print(self.preview.table(found))
+        return found, self.preview.choose(found, self.options.accept_alike)
 
     def settings(self, alpha):
-        """With what the study is made; all that must stay the same."""
-        profile = self.profile or ""
+        """With what the study is made; all that must stay the same. A file is known by its content, wherever it is."""
+        profile = Path(self.profile or "")
         return {
             "version": self.clip_player.plugin_version(), "host": platform.node(), "seed": self.options.seed,
-            "paper": self.options.paper, "properties": self.properties, "alpha_s_px": alpha,
-            "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device,
-            "profile": profile, "profile_sha256": hash_of(profile) if Path(profile).is_file() else "",
+            "participants": self.options.participants or (self.old or {}).get("participants"),
+            "paper": self.options.paper, "properties": [each for each in self.properties if not each.startswith("profile=")],
+            "alpha_s_px": alpha, "accept_alike": self.options.accept_alike, "analysis": self.analysis, "device": self.device,
+            "profile": profile.name, "profile_sha256": digest_of_file(profile) if profile.is_file() else "",
             "questions": QUESTIONS | {"every clip": self.extra}, "noise_volume": self.options.noise,
-            "practice": self.options.practice,
-            "clips_sha256": {clip: hash_of(clip) for clip in self.clip_files()}}
+            "practice": self.practice, "clips_sha256": self.digests}
 
     def begin(self):
         """What differs in each clip: as measured when the study began. Prints none of it: the participant may look on."""
-        old = read_settings(self.options.answers)
-        if old is None:
+        if self.old is None:
             clips, alpha = self.design()
-            self.preview.require_told_apart(clips, alpha, self.options.accept_alike)
-            if self.options.practice:
-                clips[self.options.practice] = self.preview.measure(
-                    self.options.practice, self.properties, self.limit_N, not self.options.paper, [alpha],
-                    self.preview.Progress([self.options.practice]))
-            write_settings(self.options.answers, self.settings(alpha),
-                           {name: asdict(by_alpha[alpha]) for name, by_alpha in clips.items()})
+            if self.practice:
+                clips[self.practice] = self.measure(self.practice, [alpha], self.preview.Progress([self.practice]))
+            with chain.session(self.options.answers):
+                write_settings(self.options.answers, self.settings(alpha), {name: asdict(each[alpha]) for name, each in clips.items()})
         else:
-            alpha = old.get("alpha_s_px")
-            require_same(self.options.answers, old, self.settings(alpha))
+            require_same(self.options.answers, self.old, self.settings(alpha := self.old.get("alpha_s_px")))
         self.properties += self.preview.properties_of(alpha)
+        self.old = read_settings(self.options.answers)
         clips = read_settings(self.options.answers, "preview")
         return {name: self.preview.Clip(**values) for name, values in clips.items()}
 
@@ -134,26 +123,18 @@ class Study:
         return self.clip_player.noise(self.options.noise, self.output)
 
     @contextmanager
-    def session(self):
-        """Of what is written, with its last link, which tells later whether the files were rewritten as a whole."""
-        chain.begin(self.options.answers, f"{platform.node()} {utc_now()}")
-        try:
-            yield
-        finally:
-            print(f"\nNote with the form of consent: {chain.end(self.options.answers)}")
-
-    @contextmanager
     def taut(self):
         with self.player():
             yield
 
     def trace_name(self, trial):
         """A name that no earlier trace has: a trial that was stopped is played again."""
-        folder = Path(self.options.answers + ".traces")
+        folder, played = Path(self.options.answers + ".traces"), chain.named(self.options.answers, "clip")
         folder.mkdir(parents=True, exist_ok=True)
         name, again = f"{self.options.participant}-{trial.number}", ""
-        while (folder / f"{name}{again}.csv").exists():
+        while name + again in played:
             again = f"-{int(again[1:] or 1) + 1}"
+        chain.add(self.options.answers, "clip", name + again)
         return folder / (name + again)
 
     def present(self, player, trial, clip):
@@ -168,7 +149,7 @@ class Study:
             properties = ["mute=false", *self.preview.PROPERTIES[trial.condition], f"trace={frames}",
                           f"max-force={clip.max_force_N[force]:.6f}"]
             self.mark(f"begin trial {trial.number} code {trial.code}")
-            if not player.play(trial.clip, properties, trial.condition == "sham", ticks, screen):
+            if not player.play(self.files[trial.clip], properties, trial.condition == "sham", ticks, screen):
                 raise Stopped
             others = {self.preview.force_of(each) for each in CONDITIONS[trial.part]} - {force}
             share, problem = judge(ticks, frames, screen, clip.frames[force], trial.condition == "without",
@@ -187,13 +168,13 @@ class Study:
     def practise(self, player, clips):
         """With the questions, whose answers are not kept. Only before anything was shown."""
         shown = read_rows(self.options.answers + ".presentations")
-        if not self.options.practice or any(row["participant"] == self.options.participant for row in shown):
+        if not self.practice or any(row["participant"] == self.options.participant for row in shown):
             return
         print("\nto try it out; these answers are not kept")
         for condition in PRACTISED:
             if read_line("return: play, q: stop here and go on another time > ") == "q":
                 raise Stopped
-            self.present(player, Trial(0, "haptics", condition, "", self.options.practice), clips[self.options.practice])
+            self.present(player, Trial(0, "haptics", condition, "", self.practice), clips[self.practice])
             for text in (QUESTIONS["haptics"] | self.extra).values():
                 ask(text)
 
@@ -255,20 +236,20 @@ class Study:
 
     def run(self):
         options = self.options
-        answers, participants = read_answers(options.answers), Participants(options.answers)
-        trials = schedule(options.clips, participants.index_of(options.participant), options.seed)
-        clips = self.begin()
-        questions = open_questions(answers, options.participant, trials, self.extra)
-        self.prepare()
-        with self.noise(), self.player() as player:
-            participants.register(options.participant)
-            self.practise(player, clips)
-            for trial, still_open in zip(trials, questions):
-                if still_open:
-                    print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
-                    self.run_trial(player, trial, clips[trial.clip], still_open)
-        debrief(options.answers, options.participant)
-        print("\nthat was all; thank you")
+        clips, participants = self.begin(), Participants(options.answers)
+        trials = schedule(clips_of(self.old), participants.index_of(options.participant), options.seed)
+        questions = open_questions(read_answers(options.answers), options.participant, trials, self.extra)
+        with chain.session(options.answers):
+            self.prepare()
+            with self.noise(), self.player() as player:
+                participants.register(options.participant)
+                self.practise(player, clips)
+                for trial, still_open in zip(trials, questions):
+                    if still_open:
+                        print(f"\nclip {trial.number} of {len(trials)}, code {trial.code}")
+                        self.run_trial(player, trial, clips[trial.clip], still_open)
+            debrief(options.answers, options.participant)
+        print("that was all; thank you")
 
 
 def execute(options, properties):
@@ -287,10 +268,8 @@ def execute(options, properties):
     elif options.command == "register":
         import registration
 
-        study = Study(options, properties)
-        with study.session():
-            study.begin()
-        print(registration.text(read_settings(options.answers), options.participants))
+        Study(options, properties).begin()
+        print(registration.text(read_settings(options.answers), *chain.registered(options.answers)))
     elif options.command == "withdraw":
         from export import exports_with
 
@@ -301,15 +280,15 @@ def execute(options, properties):
     elif options.command == "threshold":
         study = Study(options, properties)
         study.require_device()
-        with study.session():
+        with chain.session(options.answers):
             study.measure_thresholds()
     elif options.command == "design":
-        Study(options, properties).print_design()
+        _, alpha = Study(options, properties).design()
+        print("\nrun takes " + ("the alpha that is given" if alpha is None else f"alpha={alpha:g} s/px"))
     else:
         study = Study(options, properties)
         study.require_device()
-        with study.session():
-            study.run()
+        study.run()
 
 
 def main(arguments):
@@ -324,6 +303,7 @@ def main(arguments):
         return 1
     except (OSError, RuntimeError, ValueError) as error:
         what = f"{error.filename}: {error.strerror}" if getattr(error, "filename", None) else error
+        what = f"{what}; nothing is registered, and a code above is void" if options.command == "register" else what
         print(f"error: {what}", file=sys.stderr)
         return 2 if isinstance(error, ValueError) else 1
     return 0

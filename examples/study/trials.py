@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """What a participant is shown and asked: conditions, questions, and their order."""
 
+import itertools
 import random
 from dataclasses import dataclass
 
@@ -81,15 +82,18 @@ def schedule(clips, index, seed):
     block, place = divmod(index, BLOCK)
     is_swapped, place = place % 2, place // 2
     source = random.Random(f"{seed} {index}")
-    # A letter and a digit, without characters that can be confused.
-    codes = shuffled([letter + digit for letter in "ACDEFHJKLMNPRTUVWXY" for digit in "2345679"], source)
+    # A letter and a digit, or more digits if that many trials need them, without characters that can be confused.
+    count = len(clips) * sum(map(len, CONDITIONS.values()))
+    codes = next(codes for digits in itertools.count(1) if len(codes := ["".join(code) for code in itertools.product(
+        "ACDEFHJKLMNPRTUVWXY", *["2345679"] * digits)]) >= count)
+    codes = shuffled(codes, source)
     trials = []
     for part in reversed(CONDITIONS) if is_swapped else CONDITIONS:
         conditions, orders = CONDITIONS[part], ORDERS[part]
         drawn = shuffled(range(BLOCK // 2), random.Random(f"{seed} {block} {part} {is_swapped}"))[place]
         for clip in shuffled(clips, source):
             for n in orders[(drawn + clips.index(clip)) % len(orders)]:
-                trials.append(Trial(len(trials) + 1, part, conditions[n], codes[len(trials) % len(codes)], clip))
+                trials.append(Trial(len(trials) + 1, part, conditions[n], codes[len(trials)], clip))
     return trials
 
 

@@ -82,7 +82,7 @@ def judged(ticks, frames, screen, *more):
 
 def is_undisturbed(ticks, screen, wanted):
     hand = of_rows(delivery.Hand, {"ticks": ticks, "screen": screen}, wanted, False)
-    return max(hand.late_ms.max(), hand.waited_ms()) <= delivery.JITTER_MS + 1
+    return max(abs(hand.picture_lag_ms).max(), hand.waited_ms()) <= delivery.JITTER_MS + 1
 
 
 def added(p, part, axis, amount):
@@ -111,8 +111,17 @@ def screen_stops(p, ms):
                                        row["shown_ns"])} for row in p.screen if row["shown_ns"]]
 
 
-def screen_late(p, ms):
-    p.screen = [row | {"shown_ns": str(int(row["shown_ns"]) + ms * MS_NS)} for row in p.screen if row["shown_ns"]]
+def screen_late(p, ms, after_s=0):
+    """From the begin, or more and more until so long after it."""
+    part = lambda row: int(row["running_ns"]) / 1e9 / after_s if after_s else 1
+    p.screen = [row | {"shown_ns": str(int(row["shown_ns"]) + int(part(row) * ms * MS_NS))} for row in p.screen if row["shown_ns"]]
+
+
+def longer(p, times):
+    later = lambda running_ns: ((times - 1) * running_ns).astype(int)
+    p.monotonic_ns = p.monotonic_ns + later(p.running_ns)
+    p.screen = [row | {"shown_ns": str(int(row["shown_ns"]) + int(later(np.array(int(row["running_ns"])))))}
+                for row in p.screen if row["shown_ns"]]
 
 
 def both_stop(p, ms):
@@ -158,7 +167,9 @@ KINDS = [
     ("clip and force stop for so many ms", (60, 150), both_stop),
     ("cut off at so much of the largest", (0.9, 0.7), lambda p, part: np.clip(p.got, -part * abs(p.got).max(), part * abs(p.got).max(), out=p.got)),
     ("the screen stops for so many ms", (150, 200, 250), screen_stops),
-    ("the screen is late by so many ms", (90, 200), screen_late),
+    ("the screen is late, or early, by so many ms", (60, 90, 200, -60, -90), screen_late),
+    ("the screen is late, or early, by so many ms at the end, evenly", (400, -400), lambda p, ms: screen_late(p, ms, p.t_s[-1])),
+    ("the clip takes so many times as long", (0.5, 0.8, 0.9, 1.1, 1.5), longer),
     ("torque that nobody wanted, N m", (0.005, 0.02), lambda p, amount: added(p, everywhere(p), TORQUE_X, amount)),
     ("torque against the wanted one", (1,), lambda p, _: scaled(p, (slice(None), slice(3, 6)), -1)),
     ("more in z, N", (0.1, 0.15), lambda p, amount: added(p, everywhere(p), Z, amount)),
@@ -195,7 +206,7 @@ def play(film, folder, times):
         return json.loads(measured.read_text())
     properties = ["max-force=1"]
     by_alpha = {film: preview.measure(film, properties, 1, True, preview.ALPHAS_S_PX, preview.Progress([film]))}
-    alpha = preview.choose(by_alpha)
+    alpha = preview.choose(by_alpha, True)
     clip = by_alpha[film][alpha]
     with clip_player.Player([*properties, "device=sim", *preview.properties_of(alpha)], "headless") as player:
         for n in range(times):

@@ -10,7 +10,9 @@ clips if they are many (inference.py); of clips that are alike and have no effec
 deviation of 0.8), and of which one in five has an odds ratio of 7 and the others have none. 3 % missing: of the last, where
 so many answers are. equal: how often two conditions that differ by just the margin of equivalence, the true difference of
 the last, are called equal at 5 %. shown: how often conditions that are equal are found to be, within half a step. People
-differ by a standard deviation of 1 in level and effect. Then, how far thresholds (`study.py threshold`) are from those of
+differ by a standard deviation of 1 in level and effect. Then, of 24 people and 6 clips, how often any of several looks at the
+answers finds a difference at 5 % where there is none, and how often where the odds ratio is 3: each look by itself, and by
+the levels of inference.py. Last, how far thresholds (`study.py threshold`) are from those of
 simulated people; who lapses in 100 % of the trials guesses."""
 
 import math
@@ -77,6 +79,21 @@ def simulated(source, studies, people, clips, all_clips):
     return [f"{100 * np.concatenate(each).mean():.1f}" for each in zip(*parts)]
 
 
+def looks(source, studies):
+    """One at the end, four, and after each person from the second on, as the report has them."""
+    people, clips = 24, 6
+    print("\n| looks | each at 5 %: found without a difference % | with one % | by levels: without % | with % |\n" + "|---" * 5 + "|")
+    p = {}
+    for log_odds in 0, math.log(3):
+        d = plan.answers_to(source, people, source.normal(0, 0.8, (studies, 1, clips, 1)), log_odds, 1).astype(float)
+        d = d[..., 1] - d[..., 0]
+        p[log_odds] = np.array([inference.difference(d[:, :n]).p() for n in range(2, people + 1)])
+    for name, at in ("at the end", [people]), ("four", [6, 12, 18, people]), ("after each person", range(2, people + 1)):
+        levels = np.array(inference.levels(at, people, 0.05))[:, None]
+        cells = [100 * (p[effect][[n - 2 for n in at]] < most).any(axis=0).mean() for most in (0.05, levels) for effect in p]
+        print(f"| {name} | " + " | ".join(f"{cell:.1f}" for cell in cells) + " |", flush=True)
+
+
 def thresholds(people):
     """Of simulated people by slope and lapses: how many get a threshold, its bias, and its scatter."""
     print("\n| slope | lapses | threshold found % | bias | SD (ln) | trials |\n" + "|---" * 6 + "|")
@@ -102,6 +119,7 @@ def main():
     print("| participants | clips | alike % | differ % | one in five % | 3 % missing % | equal % | shown % |\n" + "|---" * 8 + "|")
     for people, clips in DESIGNS:
         print(f"| {people} | {clips} | {' | '.join(simulated(source, studies, people, clips, all_clips))} |", flush=True)
+    looks(np.random.default_rng(1), studies)
     thresholds(max(50, studies // 20))
 
 

@@ -27,6 +27,7 @@ FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import briefing  # noqa: E402
+import chain  # noqa: E402
 import clip_player  # noqa: E402
 import moving_square  # noqa: E402
 import perception  # noqa: E402
@@ -60,6 +61,11 @@ class Schedule(unittest.TestCase):
             self.assertEqual(len(runs), 6, "the conditions of a clip follow each other")
             for trial in shown:
                 self.assertRegex(trial.code, "^[A-Z][0-9]$")
+
+    def test_no_code_comes_twice_however_many_clips_there_are(self):
+        for clips in 26, 27, 200:
+            codes = [trial.code for trial in trials.schedule([str(n) for n in range(clips)], 0, 1)]
+            self.assertEqual(len(set(codes)), 5 * clips)
 
     def test_orders_are_balanced_over_twelve_participants(self):
         for first in 0, 12, 24:
@@ -128,6 +134,7 @@ class File(InFolder):
             records.append_row(self.path, ".presentations", records.PRESENTATION_COLUMNS,
                                [name, 1, f"{name}-1", 1, "a, b", ""])
             # The last one was interrupted before it was a presentation.
+            chain.add(self.path, "clip", f"{name}-1")
             for trace in f"{name}-1.haptic.csv", f"{name}-12.csv":
                 Path(f"{self.path}.traces").mkdir(exist_ok=True)
                 Path(f"{self.path}.traces/{trace}").touch()
@@ -143,7 +150,7 @@ class File(InFolder):
         answers = records.read_answers(self.path)
         self.assertEqual([answer.participant for answer in answers], ["P2", "P11", "P1-2"])
         participants = records.Participants(self.path)
-        self.assertEqual(participants.withdrew(), 1)
+        self.assertEqual(len(chain.named(self.path, "withdrawn")), 1)
         for name, index in ("P2", 1), ("P11", 2):
             self.assertEqual(participants.index_of(name), index)
             trials.open_questions(answers, name, begun[name], {})  # goes on as it began
@@ -162,13 +169,10 @@ class File(InFolder):
             with self.assertRaisesRegex(ValueError, re.escape(message)):
                 records.require_same(self.path, records.read_settings(self.path), settings | changed)
         self.assertEqual(records.read_settings(self.path, "preview"), {"a.avi": {}})
-        for wrong in (b"", b"{", b"\xff", b'{"a":' + b"[" * 100000 + b"]" * 100000 + b"}"):
-            Path(f"{self.path}.preview.json").write_bytes(wrong)
-            with self.assertRaisesRegex(ValueError, "preview.json: is not as this program wrote it"):
-                records.read_settings(self.path, "preview")
-        Path(f"{self.path}.preview.json").unlink()
-        with self.assertRaisesRegex(ValueError, "preview.json: is missing"):
-            records.read_settings(self.path, "preview")
+        for wrong in (b"", b"{", b"[]", b"{}", b"\xff", b'{"a":' + b"[" * 100000 + b"]" * 100000 + b"}"):
+            Path(f"{self.path}.settings.json").write_bytes(wrong)
+            with self.assertRaisesRegex(ValueError, "settings.json: is not as this program wrote it"):
+                records.read_settings(self.path)
         Path(f"{self.path}.settings.json").unlink()
         self.append("P1", trials.schedule(CLIPS, 0, 1)[0], "movement", 3)
         with self.assertRaisesRegex(ValueError, "settings.json: is missing"):
@@ -239,16 +243,28 @@ class Preview(unittest.TestCase):
         return {alpha: self.compare(speeds_px_s, alpha) for alpha in preview.ALPHAS_S_PX}
 
     def test_refuses_clips_that_are_mostly_the_same(self):
-        require = lambda name, speeds, accept=False: preview.require_told_apart({name: self.by_alpha(speeds)}, 0.0025, accept)
-        require("good.avi", [1000, 500, 200, 50] * 20)
+        choose = lambda name, speeds, accept=False: preview.choose({name: {0.0025: self.compare(speeds)}}, accept)
+        choose("good.avi", [1000, 500, 200, 50] * 20)
         # At equal strength, 0.709 and 0.705 of the limit at 800 px/s, and 0.071 and 0.126 at 80 px/s.
         for speeds, percent in ([200] * 100, 0), ([800] * 70 + [80] * 30, 30):
             with self.assertRaisesRegex(ValueError, f"steady.avi: linear and nonlinear can be told apart in {percent} % of"):
-                require("steady.avi", speeds)
-            require("steady.avi", speeds, True)
+                choose("steady.avi", speeds)
+            choose("steady.avi", speeds, True)
         for accept in False, True:
             with self.assertRaisesRegex(ValueError, "still.avi: no frame of it has a force"):
-                require("still.avi", [0] * 100, accept)
+                choose("still.avi", [0] * 100, accept)
+
+    def test_names_the_clips_at_fault_and_no_other(self):
+        """In any order; a good clip needs another alpha than the smallest, which is taken where the others are accepted."""
+        sway, steady, still = ([150 * abs(math.sin(n / 10)) for n in range(200)], [200] * 100, [0] * 100)
+        best = preview.choose({"sway.avi": self.by_alpha(sway)})
+        self.assertGreater(best, preview.ALPHAS_S_PX[0])
+        for bad, said in (("still.avi", still), "still.avi: no frame"), (("steady.avi", steady), "steady.avi: linear and nonlinear"):
+            for clips in ([("sway.avi", sway), bad], [bad, ("sway.avi", sway)]):
+                with self.assertRaisesRegex(ValueError, said) as caught:
+                    preview.choose({name: self.by_alpha(speeds) for name, speeds in clips})
+                self.assertNotIn("sway", str(caught.exception))
+        self.assertEqual(preview.choose({"steady.avi": self.by_alpha(steady), "sway.avi": self.by_alpha(sway)}, True), best)
 
     def test_takes_the_smallest_alpha_with_which_all_clips_differ(self):
         sway = self.by_alpha([150 * abs(math.sin(n / 10)) for n in range(200)])

@@ -172,10 +172,30 @@ class Delivery(unittest.TestCase):
                              (lambda row: row if not 600_000_000 < row[0] < 800_000_000 else None, "the picture stood still for 200")):
             self.require(said, screen=screen)
         self.assertIn("the picture stood for", self.judge(screen=late(90))[1])
-        backwards = lambda row: [2_000_000_000 - row[0], row[1]] if 600_000_000 < row[0] < 1_400_000_000 else row
-        self.require("as is noticed", screen=backwards)
+        self.assertIn("the picture was ahead for", self.judge(screen=late(-90))[1])
+        for screen in late(-60), late(60):
+            self.require("as is noticed", screen=screen)
+        self.require("", screen=late(-30))
         with patch.object(Delivery, "FRAMES", film(sway, frame_ms=120)):  # each stands for so long
             self.require("", screen=lambda row: row if row[0] % 120_000_000 == 0 else None)
+
+    def test_the_clip_is_as_long_as_it_should_be_and_evenly_so(self):
+        """By the clock, where nothing is to be felt, too; and its pictures are where its preview has them."""
+        def stretched(factor, begin_ms=0):
+            later_ns = lambda running_ns: int((factor - 1) * max(0, running_ns - begin_ms * 1_000_000))
+            return {"change": lambda tick: tick | {"monotonic_ns": tick["monotonic_ns"] + later_ns(tick["running_ns"])},
+                    "screen": lambda row: [row[0], row[1] + later_ns(row[0])]}
+
+        drifting = lambda ms: {"screen": lambda row: [row[0], row[1] + row[0] * ms // 2000]}
+        another_rate = lambda factor: {"screen": lambda row: [int(factor * row[0]), BEGIN_NS + int(factor * row[0])]}
+        for is_muted in False, True:
+            for given in stretched(1.04), stretched(0.96), drifting(-30):
+                self.require("", **given, is_muted=is_muted)
+            for given in (stretched(0.5), stretched(0.8), stretched(0.9), stretched(1.1), stretched(1.5), stretched(0.8, 1200),
+                          drifting(-400), drifting(300), another_rate(1.3), another_rate(0.5)):
+                self.assertTrue(self.judge(**given, is_muted=is_muted)[1])
+            self.require("longer or shorter than it should be by 200 ms", **stretched(0.9), is_muted=is_muted)
+            self.require("ms from where the preview has one", screen=lambda row: [row[0] + 15_000_000, row[1] + 15_000_000], is_muted=is_muted)
 
     def test_a_force_that_stands_at_the_end_of_a_clip_does_not_count(self):
         """After the motion of the last frame, too, where the force goes to rest."""

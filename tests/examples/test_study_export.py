@@ -6,8 +6,10 @@
     test_study_export.py FOLDER-OF-STUDY.PY
 """
 
+import contextlib
 import csv
 import gzip
+import io
 import json
 import math
 import re
@@ -61,7 +63,7 @@ class Export(unittest.TestCase):
             for person, clip, side in np.ndindex(cls.steps.shape):
                 writer.writerow([f"P-{person}", 2 * clip + side + 1, "controllers", ("linear", "nonlinear")[side], "A2",
                                  f"/films/{clip}.avi", "movement", cls.steps[person, clip, side], "2026-01-01T00:00:00Z"])
-        settings = {"version": "0.1", "device": "sim", "profile": "", "seed": 1, "practice": "", "clips_sha256": {},
+        settings = {"version": "0.1", "device": "sim", "profile": "", "seed": 1, "practice": "", "clips_sha256": {}, "preview": {},
                     "questions": {"controllers": {"movement": "How well?"}}}
         Path(f"{cls.answers}.settings.json").write_text(json.dumps(settings))
         Path(f"{cls.answers}.briefings").write_text("participant,check,answer\nP-1,handedness,both\nP-1,guess,something private\n")
@@ -76,7 +78,8 @@ class Export(unittest.TestCase):
             # 700 ticks, of which the 300th is 5 ms late; the clip ends after 600 ms.
             ticks = [[int(n < 600), 10**9 + 10**6 * n + 5 * 10**6 * (n >= 300), 10**6 * n, n, *[0] * 8] for n in range(700)]
             (traces / f"{name}.haptic.csv").write_text("".join(",".join(map(str, row)) + "\n" for row in [columns, *ticks]))
-        export.export(cls.answers, cls.out)
+        with contextlib.redirect_stdout(io.StringIO()):
+            export.export(cls.answers, cls.out)
 
     def table(self, name):
         with open(self.out / name, encoding="utf-8", newline="") as file:
