@@ -7,7 +7,8 @@ reasons, and as its last line `N passed, N failed, N skipped`. Exits with an err
 `--failed WHAT` counts a check that is not a meson test and failed, `--passed WHAT` one that passed.
 `--log NAME` reads what `meson test --logbase NAME` wrote. What the log NAME-alone has, if there is
 one, counts instead: tests that ran again. They are counted apart, and above `--most-again` of them, 1 by default, each
-counts as failed: a test that needs to be alone is a fault of the test. `--list-failed` prints the names of the test programs that failed, and nothing else."""
+counts as failed: a test that needs to be alone is a fault of the test. `--list-failed` prints the names of the test
+programs that failed, and nothing else; `--failures` a line for each test that did, with the reason behind a tab."""
 
 import argparse
 import json
@@ -100,6 +101,7 @@ def main():
     parser.add_argument("--log", default="testlog")
     parser.add_argument("--most-again", type=int, default=1)
     parser.add_argument("--list-failed", action="store_true")
+    parser.add_argument("--failures", action="store_true")
     parser.add_argument("builds", nargs="*")
     arguments = parser.parse_args()
 
@@ -108,6 +110,13 @@ def main():
             for run in runs_of(Path(build) / "meson-logs" / arguments.log):
                 if has_failed(run):
                     print(program_of(run))
+        return
+
+    if arguments.failures:
+        for build in arguments.builds:
+            for name, result, reason in results_of(Path(build) / "meson-logs" / arguments.log):
+                if result == "failed":
+                    print(name, reason, sep="\t")
         return
 
     counts = Counter(passed=len(arguments.passed), failed=len(arguments.failed))
