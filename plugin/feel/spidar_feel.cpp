@@ -291,12 +291,12 @@ void run_films(char** films) {
   const bool has_sink = std::any_of(named.begin(), named.end(), [](const std::string& word) {
     return word.rfind("--videosink", 0) == 0;
   });
+  // The player would crash.
   if (!has_sink && !spidar::follow::has_display()) {
-    std::fputs(
-        "spidar-feel: there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, "
-        "as in a remote session; without a picture, it is felt with --videosink=\"fakesink "
-        "sync=true\" behind it\n",
-        stderr);
+    fail(kCannotRun,
+         "there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, as in a "
+         "remote session; without a picture, it is felt with --videosink=\"fakesink sync=true\" "
+         "behind it");
   }
   std::vector<char*> words{const_cast<char*>(kPlayer)};
   for (std::string& film : named) words.push_back(film.data());

@@ -209,16 +209,16 @@ class NoDevice(FeelCase):
 
     @track_case.needs(QUIET[0])
     def test_what_cannot_be_played_or_shown_is_said(self):
-        """Its output may crash without a screen."""
         no_film = self.films / "text.avi"
         no_film.write_text("no film")
         films = (self.make_film("short.avi", 15), no_film)
         self.run_all([FEEL, *QUIET, "--videosink=fakesink", *films[:1]])
         self.run_all([FEEL, *QUIET, "--videosink=fakesink", *films], status=1)
-        said = self.run_in_folder(f"DISPLAY= WAYLAND_DISPLAY= {FEEL} {films[0]} --version")
-        self.assertIn("there is no screen for the film", said)
-        said = self.run_in_folder(f"DISPLAY= WAYLAND_DISPLAY= {FEEL} {films[0]} --videosink=fakesink --version")
+        screenless = f"DISPLAY= WAYLAND_DISPLAY= {FEEL} device=none trace={self.path('trace.csv')} -- {films[0]} "
+        self.assertIn("there is no screen for the film", self.run_in_folder(screenless, 126))
+        said = self.run_in_folder(screenless + "--videosink='fakesink sync=true'")
         self.assertNotIn("there is no screen", said)
+        self.assertEqual(len(self.path("trace.csv").read_text(encoding="ascii").splitlines()), 1 + 15)
 
     def test_a_player_plays_without_a_device_that_can_be_opened(self):
         film = self.make_film("very_short.avi", 15)
