@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
 # Says after an installation what is to be set so that what is installed is found; nothing if all is found.
-#   tell_installed.sh BINDIR LIBDIR PYTHON-FOLDER GSTREAMER'S-PLUGIN-FOLDER
+#   tell_installed.sh BINDIR LIBDIR PYTHON-FOLDER GSTREAMER'S-PLUGIN-FOLDER [to-parent]
+# With the last word, to where its parent prints.
 [ -z "${DESTDIR-}${MESON_INSTALL_QUIET-}" ] || exit 0
 in_prefix() { case $1 in /*) echo "$1" ;; *) echo "$MESON_INSTALL_PREFIX/$1" ;; esac; }
 bin=$(in_prefix "$1") lib=$(in_prefix "$2") python=$3 searched=$4
@@ -23,4 +24,5 @@ if ! /sbin/ldconfig -p 2>/dev/null | grep -q "=> $lib/libgst-spidar\.so"; then
     *) add LD_LIBRARY_PATH "$lib" ;;
     esac
 fi
+[ -z "${5-}" ] || exec >>"/proc/$PPID/fd/1"
 [ -z "$lines" ] || printf '\nWhat is installed is found after these lines, in a shell or in ~/.profile:\n%s' "$lines"
