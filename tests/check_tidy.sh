@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Checks with clang-tidy (.clang-tidy) the source files that have changed since COMMIT; by default, since this branch has
-# left origin/main, or since the commit before when it has not. --all checks every file, in half an hour. --quick looks
-# at names and braces alone, in a third of the time.
+# Checks with clang-tidy (.clang-tidy) the source files that have changed since COMMIT, and those that Git does not know
+# yet; by default, since this branch has left origin/main, or since the commit before when it has not. --all checks every
+# file, in half an hour. --quick looks at names and braces alone, in a third of the time.
 #   tests/check_tidy.sh [--quick] [COMMIT | --all]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -13,15 +13,17 @@ if [[ ${1-} == --quick ]]; then
     checks=("--checks=-*,readability-braces-around-statements,readability-identifier-naming")
     shift
 fi
+sources=('core/*.cpp' 'plugin/*.cpp' 'spidar/*.cpp')
 since=${1-}
 if [[ -z $since ]]; then
     since=$(git merge-base HEAD origin/main 2>/dev/null || true)
     [[ -n $since && $since != "$(git rev-parse HEAD)" ]] || since=HEAD~1
 fi
 if [[ $since == --all ]]; then
-    mapfile -t files < <(git ls-files 'core/*.cpp' 'plugin/*.cpp' 'spidar/*.cpp')
+    mapfile -t files < <(git ls-files "${sources[@]}")
 elif git rev-parse -q --verify "$since^{commit}" >/dev/null; then
-    mapfile -t files < <(git diff --name-only --diff-filter=d "$since" -- 'core/*.cpp' 'plugin/*.cpp' 'spidar/*.cpp')
+    mapfile -t files < <(git diff --name-only --diff-filter=d "$since" -- "${sources[@]}" &&
+        git ls-files --others --exclude-standard -- "${sources[@]}")
 else
     echo "left out: there is no commit $since here to compare with, as in a clone of one commit"
     exit 0
