@@ -29,7 +29,7 @@ _Static_assert(sizeof(GstSpidarGripState) == 15 * sizeof(double), "size");
 #define COMES_TRUE(what)                                         \
   do {                                                           \
     int tries = 0;                                               \
-    while (!(what)) REQUIRE(++tries < 30000 && (wait_ms(1), 1)); \
+    while (!(what)) REQUIRE(++tries < 60000 && (wait_ms(1), 1)); \
   } while (0)
 
 static void wait_ms(long ms) {

@@ -51,7 +51,7 @@ struct Picture {
 /// not called any more.
 TEST(Threads, ShareADevice) {
   Device device("sim");
-  ASSERT_TRUE(device.wait_until_running(30s));
+  ASSERT_TRUE(device.wait_until_running(60s));
   std::atomic<bool> used_after_its_end{false};
   const auto set_callback = [&] {
     struct Captured {
@@ -83,7 +83,7 @@ TEST(Threads, ShareADevice) {
   device.clear_surface();
   device.set_callback({});
   device.set_limits(3, 0.1);
-  const auto until = std::chrono::steady_clock::now() + 30s;
+  const auto until = std::chrono::steady_clock::now() + 60s;
   bool felt = false;
   while (!felt && std::chrono::steady_clock::now() < until) {
     device.push(wrench);
@@ -114,7 +114,7 @@ TEST(Threads, ShareAMotion) {
 bool in_a_copy(const std::function<bool()>& call) {
   const pid_t child = fork();
   if (child == 0) {
-    alarm(20);
+    alarm(60);
     _exit(call() ? 0 : 1);
   }
   int status = 0;
@@ -134,7 +134,7 @@ bool throws_of_fork(const std::function<void()>& call) {
 /// Whatever was locked, or was being written, in the moment of the copy.
 TEST(Threads, ACopyOfTheProcessHasNoDevice) {
   Device device("sim");
-  ASSERT_TRUE(device.wait_until_running(30s));
+  ASSERT_TRUE(device.wait_until_running(60s));
   // The callback does not end before `ends`, and set_callback() waits for that, with the lock.
   std::atomic<bool> called{false}, ends{false};
   device.set_callback([&](const GripState&) {
@@ -201,7 +201,7 @@ std::string refused(Device& device, const std::function<void()>& call) {
     }
     return Wrench{};
   });
-  const bool answered = message.wait_for(30s) == std::future_status::ready;
+  const bool answered = message.wait_for(60s) == std::future_status::ready;
   EXPECT_TRUE(answered);
   device.set_callback({});
   return answered ? message.get() : "";
@@ -210,7 +210,7 @@ std::string refused(Device& device, const std::function<void()>& call) {
 /// Each of them might wait for the callback's end, or for a thread that does.
 TEST(Threads, ACallbackMayNotCallWhatWaits) {
   Device device("sim"), other("sim");
-  ASSERT_TRUE(device.wait_until_running(30s));
+  ASSERT_TRUE(device.wait_until_running(60s));
   const Picture picture;
   Surface surface;
   surface.picture = picture.grey;
@@ -252,7 +252,7 @@ TEST(Threads, ACallbackInCMayNotCallWhatWaits) {
   };
   ASSERT_TRUE(
       gst_spidar_device_set_callback(seen.device, push, &seen, GST_SPIDAR_PASSIVE, nullptr));
-  const auto until = std::chrono::steady_clock::now() + 30s;
+  const auto until = std::chrono::steady_clock::now() + 60s;
   while (seen.kind < 0 && std::chrono::steady_clock::now() < until)
     std::this_thread::sleep_for(1ms);
   EXPECT_EQ(seen.kind, GST_SPIDAR_ERROR_FAILED);

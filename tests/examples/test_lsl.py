@@ -54,7 +54,7 @@ class Lsl(unittest.TestCase):
         environment = os.environ | {"PYTHONPATH": str(self.folder), "LSL_OUT": str(self.folder / "out")}
         program = subprocess.Popen([sys.executable, EXAMPLES / "lsl.py", self.pipe], env=environment)
         self.addCleanup(program.kill)
-        until = time.monotonic() + 30
+        until = time.monotonic() + 60
         while not self.pipe.exists() and time.monotonic() < until:
             time.sleep(0.01)
         return program
@@ -65,7 +65,7 @@ class Lsl(unittest.TestCase):
         subprocess.run(["gst-launch-1.0", "-q", "videotestsrc", "pattern=ball", "num-buffers=30", "!",
                         "video/x-raw,width=320,height=240,framerate=30/1", "!", "spidarmotion", "device=sim",
                         f"haptic-trace={self.pipe}", "!", "fakesink", "sync=true"], check=True)
-        self.assertEqual(program.wait(30), 0)
+        self.assertEqual(program.wait(60), 0)
         after = time.monotonic()
         self.assertFalse(self.pipe.exists())
         received = [json.loads(line) for line in (self.folder / "out").read_text().splitlines()]

@@ -262,7 +262,7 @@ class Streams:
         self.assertEqual(records.read_rows(f"{answers}.thresholds"), [], "not complete")
         with gst_spidar.Device("sim") as device:
             device.set_limits(1, 0)
-            self.assertTrue(device.wait_until_running(10))
+            self.assertTrue(device.wait_until_running(60))
             felt_N = []
             perception.pulse(device, 0.5, lambda seconds: (felt_N.append(device.felt().force_N.x), time.sleep(seconds)))
         # The strings of the simulated device deliver what they can at its pose, at the centre nearly all.

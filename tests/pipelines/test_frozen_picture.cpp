@@ -15,11 +15,15 @@ constexpr GstClockTime kRest = 150 * GST_MSECOND;
 /// of them stray, and good poses enough for a force.
 constexpr int kBefore = 50;
 
+/// Frames that the loop knows ahead: WrenchTimeline takes those of the next 100 ms, and one more.
+constexpr int kAhead = 4;
+
 TEST(FrozenPicture, TheClockStandsStill) {
   SteppedPipeline pipeline(kPlayer);
   pipeline.set_state(GST_STATE_PLAYING);
   play(pipeline, kBefore);
   pipeline.await();
+  pipeline.await_analysed(kBefore + kAhead);
   EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
   EXPECT_EQ(pipeline.stand_still(kRest).commanded.stacked().norm(), 0);
   EXPECT_EQ(pipeline.stand_still(6 * GST_SECOND).commanded.stacked().norm(), 0);

@@ -16,7 +16,7 @@ constexpr int64_t kMs = 1'000'000;
 
 /// Returns false when nothing of the kind happens within a sufficient time.
 bool wait_for(const std::function<bool()>& happened) {
-  for (int i = 0; i < 30'000; ++i) {
+  for (int i = 0; i < 60'000; ++i) {
     if (happened()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
