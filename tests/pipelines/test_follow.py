@@ -153,8 +153,7 @@ class Follow(FollowCase):
         self.expect_found(player)
 
         player.die()
-        self.wait_until(lambda: "mock has ended" in self.said())
-        self.expect_rest()
+        self.wait_until(lambda: "mock has ended" in self.said() and self.force_N() == 0)
         self.expect_ended(process)
 
     def expect_followed_through_seeks(self, player):
