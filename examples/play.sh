@@ -24,11 +24,15 @@ quietly() {
     return "$status"
 }
 
-# make TEXT TARGET...: builds what is missing, after a line with TEXT.
+# make TEXT TARGET...: builds what is missing, after a line with TEXT. On a terminal, a line says how far it is.
 make() {
     if [[ $(ninja -C "$top/build" -n "${@:2}") != *"no work to do"* ]]; then
         echo "$1"
-        quietly ninja -C "$top/build" "${@:2}"
+        if [[ -t 1 ]]; then
+            ninja -C "$top/build" "${@:2}"
+        else
+            quietly ninja -C "$top/build" "${@:2}"
+        fi
     fi
 }
 
@@ -37,16 +41,18 @@ build() {
     if [[ ! -f $top/build/build.ninja ]]; then
         quietly meson setup "$top/build" "$top" -Dunity=on  # several files compiled as one: faster
     fi
-    local targets=(plugin/libgstspidar.so spidar/spidar-guardian examples/play/play)
     # The debug window is a program of its own, if there are the libraries for it.
-    ! grep -q '^build plugin/spidar-window:' "$top/build/build.ninja" || targets+=(plugin/spidar-window)
+    ! grep -q '^build plugin/spidar-window:' "$top/build/build.ninja" || window=(plugin/spidar-window)
+    local targets=(plugin/libgstspidar.so spidar/spidar-guardian examples/play/play)
+    [[ " ${options[*]-} ${properties[*]-}" != *" --window"* && "${properties[*]-}" != *debug-window* ]] ||
+        targets+=("${window[@]}")
     make "building; the first time, this takes some minutes" "${targets[@]}"
 }
 
 # What README.md and docs/start.md go on with.
 build_programs() {
-    make "building spidar-feel, spidartrack and spidarctl for the next steps" \
-        plugin/{libgstspidarfeel.so,spidar-feel,spidartrack} spidar/tools/spidarctl
+    make "building spidar-feel, spidartrack, spidarctl and the debug window for the next steps" \
+        plugin/{libgstspidarfeel.so,spidar-feel,spidartrack} spidar/tools/spidarctl "${window[@]}"
 }
 
 # A free film of a tennis ball that is dropped, in slow motion; the camera lies on its side.
@@ -75,6 +81,7 @@ fetch_clip() {
 }
 
 arguments=("$@")
+window=()  # what is built of it
 options=()
 video=()
 properties=()
