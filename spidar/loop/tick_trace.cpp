@@ -3,6 +3,7 @@
 #include "spidar/loop/tick_trace.h"
 
 #include <chrono>
+#include <filesystem>
 #include <stdexcept>
 
 #include "spidar/realtime/thread_setup.h"
@@ -121,7 +122,11 @@ TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threade
   const bool is_late = loop_.snapshot().counters.ticks >= HapticLoop::kRecords;
   for (TickRecord old; is_late && loop_.pop_record(old);) continue;
   if (!threaded) return;
-  thread_ = start_thread("spidar-trace", [this] { run(); });
+  // What reads from a pipe waits for it.
+  thread_ = start_thread("spidar-trace", [this, is_file = std::filesystem::is_regular_file(path)] {
+    if (is_file) request_background();
+    run();
+  });
 }
 
 TraceThread::~TraceThread() {
@@ -135,10 +140,9 @@ TraceThread::~TraceThread() {
 }
 
 void TraceThread::run() noexcept {
-  request_background();
   std::unique_lock lock(mutex_);
   while (!stop_) {
-    wake_.wait_for(lock, std::chrono::milliseconds(50));
+    wake_.wait_for(lock, std::chrono::milliseconds(1));
     take_records();
   }
 }

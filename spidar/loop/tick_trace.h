@@ -49,7 +49,7 @@ class TickTrace {
   uint64_t missing_ticks_ = 0;
 };
 
-/// Reads the records of a loop every 50 ms. The loop can store more than four seconds of them.
+/// Reads the records of a loop every ms. The loop can store more than four seconds of them.
 class TraceThread {
  public:
   /// Throws std::runtime_error when the file cannot be written. `loop` must outlive this object.

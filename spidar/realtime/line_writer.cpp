@@ -10,6 +10,7 @@
 #include <fcntl.h>
 #include <mutex>
 #include <poll.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -25,6 +26,13 @@ uint64_t lines_in(std::string_view text) {
   return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+/// What reads from a pipe may act on it, as a motor does.
+std::chrono::milliseconds period_of(int file) {
+  constexpr std::chrono::milliseconds kOfPipe{1};
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode) ? LineWriter::kPeriod : kOfPipe;
+}
+
 /// The first whole lines of `text` that have at most `room` bytes; one line if that is longer.
 std::string_view first_lines(std::string_view text, size_t room) {
   size_t end = text.rfind('\n', room - 1);
@@ -36,7 +44,7 @@ std::string_view first_lines(std::string_view text, size_t room) {
 
 /// Shared with the thread, which may outlive the writer.
 struct LineWriter::Output {
-  explicit Output(int opened) : file(opened) {}
+  explicit Output(int opened) : file(opened), period(period_of(opened)) {}
   ~Output() { ::close(file); }
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -45,7 +53,7 @@ struct LineWriter::Output {
   void run() noexcept {
     std::unique_lock<std::mutex> lock(mutex);
     while (true) {
-      changed.wait_for(lock, kPeriod, [this] { return hurries || ends; });
+      changed.wait_for(lock, period, [this] { return hurries || ends; });
       hurries = false;
       if (waiting.empty()) {
         changed.notify_all();
@@ -120,6 +128,7 @@ struct LineWriter::Output {
   bool is_done() const { return waiting.empty() && in_work == 0; }
 
   const int file;
+  const std::chrono::milliseconds period;  // after which it is written
   std::atomic<uint64_t> written_bytes{0};
   std::mutex mutex;  // of all that follows
   std::condition_variable changed;
