@@ -86,6 +86,33 @@ TEST(Layout, TheTimelineHasRoomForItsLines) {
   }
 }
 
+TEST(Layout, WhatIsNotThereOrCannotBeReadLeavesItsRoomToOthers) {
+  const window::Layout all = window::lay_out(1280, 800, 1);
+  const window::Layout none = window::lay_out(1280, 800, 1, {true, false, false});
+  EXPECT_EQ(none.grip.height + none.tensions.height, 0);
+  EXPECT_NEAR(none.controls.y, all.grip.y, kRounding);
+  EXPECT_NEAR(none.controls.bottom(), all.controls.bottom(), kRounding);
+  EXPECT_NEAR(window::lay_out(1280, 800, 1, {true, true, false}).controls.y, all.tensions.y,
+              kRounding);
+  for (const auto& [width, height] : {std::pair{560, 380}, {640, 480}, {800, 600}, {560, 1000}}) {
+    for (const double scale : {1.0, 2.0}) {
+      SCOPED_TRACE(std::to_string(width) + "x" + std::to_string(height));
+      const window::Layout l =
+          window::lay_out(static_cast<int>(scale * width), static_cast<int>(scale * height), scale);
+      // "Compare", two buttons and "Reset" beside each other; "Speed to force" within its margins.
+      EXPECT_GE(l.controls.width, scale * 220);
+      EXPECT_GE(l.controls.height, scale * 190);
+      EXPECT_GE(l.timeline.height, scale * 76);
+      for (const window::Rect& plot : {l.force, l.speed, l.gain}) {
+        if (plot.width == 0) continue;
+        EXPECT_GE(plot.width, scale * 132);
+        EXPECT_GE(plot.height, scale * 90);
+      }
+      EXPECT_GE(l.picture.height, scale * 0.4 * height);
+    }
+  }
+}
+
 TEST(Layout, ThePictureKeepsItsShapeAndItsPlace) {
   const window::Rect panel{10, 20, 400, 300};
   // Pixels twice as wide as high: 100 × 100 of them are 2 : 1.
@@ -159,7 +186,7 @@ TEST(Settings, HavePresets) {
 }
 
 TEST(Layout, OfATrackTheForceHasThePlaceOfTheSpeed) {
-  const window::Layout l = window::lay_out(1280, 800, 1, false);
+  const window::Layout l = window::lay_out(1280, 800, 1, {false});
   EXPECT_NEAR(l.force.right(), l.status.right(), kRounding);
   EXPECT_EQ(l.speed.width, 0);
   EXPECT_EQ(l.gain.width, 0);

@@ -256,7 +256,12 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
   at.x += 2 * radius + brush.px(7);
   const std::string said = note.empty() ? felt_line(state, report.touch, now) : note;
-  draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
+  const float room = static_cast<float>(panel.right()) - brush.px(10) - at.x;
+  if (text_size(font, said).x <= room) {
+    draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
+  } else {
+    draw_wrapped(brush, small, at, kTextColor, said, room);
+  }
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 
   // From the right, as much as there is room for.

@@ -23,8 +23,8 @@
 namespace spidar::window {
 namespace {
 
-/// At a scale of 1: what is smaller cannot be read.
-constexpr int kMinWidth = 640, kMinHeight = 480;
+/// At a scale of 1: in what is smaller, text is cut.
+constexpr int kMinWidth = 560, kMinHeight = 380;
 constexpr double kNote_s = 4;
 /// So long after a frame the plots stand still, so that the end of a film stays to be looked at.
 constexpr double kIdle_s = 1;
@@ -234,8 +234,10 @@ ShownPicture DebugWindow::shown_picture() const {
 }
 
 void DebugWindow::draw_panels(int width, int height) {
-  const bool has_speed = !report_.track;
-  const Layout layout = lay_out(width, height, scale_, has_speed);
+  const bool has_strings = state_.device && state_.device->has_strings;
+  const Layout layout =
+      lay_out(width, height, scale_, {!report_.track, state_.device.has_value(), has_strings});
+  const auto is_there = [](const Rect& panel) { return panel.width > 0 && panel.height > 0; };
   const Brush brush{*ImGui::GetBackgroundDrawList(), scale_, fonts_};
   const ControllerSettings& controller = report_.controller;
   shown_width_ = static_cast<int>(layout.picture.width);
@@ -247,11 +249,13 @@ void DebugWindow::draw_panels(int width, int height) {
   use_plots(mouse, layout);
   if (const std::string line = hint(); !line.empty()) draw_hint(brush, shown, line);
   if (keys_) draw_keys(brush, layout.picture);
-  draw_grip(brush, layout.grip, state_, picture.delivered_N.has_value());
-  draw_tensions(brush, layout.tensions, state_);
+  if (is_there(layout.grip)) {
+    draw_grip(brush, layout.grip, *state_.device, picture.delivered_N.has_value());
+  }
+  if (is_there(layout.tensions)) draw_tensions(brush, layout.tensions, *state_.device);
   draw_choices(brush, layout.timeline);
-  draw_force(brush, layout.force, timeline_);
-  if (has_speed) {
+  if (is_there(layout.force)) draw_force(brush, layout.force, timeline_);
+  if (is_there(layout.speed)) {
     draw_speed(brush, layout.speed, timeline_);
     draw_gain(brush, layout.gain, timeline_, controller, settings_);
   }

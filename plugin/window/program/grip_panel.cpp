@@ -111,7 +111,9 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
 /// The directions of the device in a corner.
 void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& project) {
   const double length = std::min(20 * brush.scale, 0.14 * panel.height);
-  const Eigen::Vector2d corner(panel.x + 2.4 * length, panel.bottom() - 0.7 * length);
+  const double name = text_size(brush.fonts.small, kAxisNames[2]).x;  // to the left
+  const Eigen::Vector2d corner(panel.x + std::max(2.4 * length, name + length),
+                               panel.bottom() - 0.7 * length);
   const Eigen::Vector2d origin = project(Eigen::Vector3d::Zero());
   const double unit = (project(Eigen::Vector3d::UnitY()) - origin).norm();
   for (int axis = 0; axis < 3; ++axis) {
@@ -130,12 +132,7 @@ void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& p
 
 }  // namespace
 
-void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state, bool is_as_asked) {
-  if (!state.device) {
-    draw_panel(brush, panel, "Grip", "no device is open");
-    return;
-  }
-  const DeviceView& device = *state.device;
+void draw_grip(const Brush& brush, const Rect& panel, const DeviceView& device, bool is_as_asked) {
   const TickRecord& last = device.last;
   std::string note = device.name + ", " + to_string(last.device);
   if (last.faulty_string >= 0) {
@@ -155,12 +152,9 @@ void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state,
   brush.list.PopClipRect();
 }
 
-void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state) {
-  const bool strings = !state.device || state.device->has_strings;
-  const Rect content =
-      draw_panel(brush, panel, "String tensions", strings ? "N" : "this device has no strings");
-  if (!strings || !state.device || state.device->geometry.count == 0) return;
-  const DeviceView& device = *state.device;
+void draw_tensions(const Brush& brush, const Rect& panel, const DeviceView& device) {
+  const Rect content = draw_panel(brush, panel, "String tensions", "N");
+  if (device.geometry.count == 0) return;
   const int count = device.geometry.count;
   const double most_N = std::max(device.max_tension_N.head(count).maxCoeff(), kLeastTension_N);
   const PlotAxis strings_axis = make_axis(-0.5, count - 0.5, count);
@@ -182,6 +176,7 @@ void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& st
     char value[16];
     std::snprintf(value, sizeof value, "%.1f", tension_N);
     const ImVec2 top = plot.at(i, most_N);
+    if (text_size(font, value).x > plot.area().width / count) continue;
     draw_text(brush, font, {top.x - text_size(font, value).x / 2, top.y - font->FontSize - 2},
               kTextColor, value);
   }

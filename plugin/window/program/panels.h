@@ -39,11 +39,11 @@ Rect shown_rect(const Rect& panel, const ShownPicture& picture, const DrawnFrame
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const DrawnFrame& report);
 
-/// Frame, strings (the thicker the harder they pull), the grip and its force; with no device a line
-/// that says so. `is_as_asked`: the picture has the same force, so that neither needs a name.
-void draw_grip(const Brush& brush, const Rect& panel, const ElementState& state, bool is_as_asked);
+/// Frame, strings (the thicker the harder they pull), the grip and its force. `is_as_asked`: the
+/// picture has the same force, so that neither needs a name.
+void draw_grip(const Brush& brush, const Rect& panel, const DeviceView& device, bool is_as_asked);
 /// The tension of each string as a bar.
-void draw_tensions(const Brush& brush, const Rect& panel, const ElementState& state);
+void draw_tensions(const Brush& brush, const Rect& panel, const DeviceView& device);
 
 /// The axis fits what is felt.
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline);

@@ -255,7 +255,9 @@ void draw_keys(const Brush& brush, const Rect& picture) {
   }
   const double w = names + width + 3 * margin, h = kKeys.size() * line + 2 * margin;
   const double x = std::max(picture.x, picture.x + (picture.width - w) / 2);
-  const double y = std::max(picture.y, picture.y + (picture.height - h) / 2);
+  // In the middle, or below the switches.
+  const double room = std::max(picture.height - h, 0.0);
+  const double y = picture.y + (room / 2 < 44 * brush.scale ? room : room / 2);
   brush.list.AddRectFilled(im(x, y), im(x + w, y + h), IM_COL32(12, 14, 18, 225), brush.px(6));
   double at = y + margin;
   for (const auto& [key, what] : kKeys) {

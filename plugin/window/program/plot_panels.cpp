@@ -11,7 +11,7 @@
 namespace spidar::window {
 namespace {
 
-constexpr double kLeastForce_N = 0.1, kMinSpeed_px_s = 100, kHeadroom = 1.1;
+constexpr double kMinSpeed_px_s = 100, kHeadroom = 1.1;
 constexpr int kCurvePoints = 64;
 
 std::string number(const char* format, double value) {
@@ -148,26 +148,29 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const Rect content = draw_panel(brush, panel, "Speed to force");
   const double highest_px_s = highest_speed_px_s(timeline);
   const ControllerSettings other = with_values(controller, settings.other());
-  const double most_N = std::max({controller.max_force_N, other.max_force_N, kLeastForce_N});
+  const std::vector<double> used_N = timeline.gain_curve(controller, highest_px_s, kCurvePoints),
+                            other_N = timeline.gain_curve(other, highest_px_s, kCurvePoints);
+  const double most_N =
+      force_axis_end_N(std::max(*std::max_element(used_N.begin(), used_N.end()),
+                                *std::max_element(other_N.begin(), other_N.end())));
   const int steps = std::max(2, Plot::steps_across(brush, content.width));
   const PlotAxis x = make_axis(0, highest_px_s, steps);
   const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "px/s", "N");
-  const auto draw_curve = [&](const ControllerSettings& of, ImU32 color) {
-    const std::vector<double> curve_N = timeline.gain_curve(of, highest_px_s, kCurvePoints);
-    if (&of == &controller) shade_unfelt(brush, plot, curve_N, highest_px_s);
+  const auto draw_curve = [&](const std::vector<double>& curve_N, ImU32 color) {
     std::vector<Eigen::Vector2d> curve;
     for (size_t i = 0; i < curve_N.size(); ++i) {
       curve.emplace_back(highest_px_s * static_cast<double>(i) / (kCurvePoints - 1), curve_N[i]);
     }
     plot.line(curve, color);
   };
+  shade_unfelt(brush, plot, used_N, highest_px_s);
   if (!settings.are_same()) {
     const bool is_first = settings.used() == 0;
-    draw_curve(other, kMutedColor);
+    draw_curve(other_N, kMutedColor);
     plot.legend({{is_first ? "1" : "2", kSpeedColor}, {is_first ? "2" : "1", kMutedColor}});
   }
-  draw_curve(controller, kSpeedColor);
+  draw_curve(used_N, kSpeedColor);
   const std::vector<Moment> moments = timeline.plotted();
   if (moments.empty()) return;
   // The controller's force, a part of which may have become torque.

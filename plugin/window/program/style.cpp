@@ -69,6 +69,13 @@ void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                      text.data() + text.size());
 }
 
+void draw_wrapped(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
+                  const std::string& text, float width_px) {
+  const float height = font->CalcTextSizeA(font->FontSize, FLT_MAX, width_px, text.c_str()).y;
+  brush.list.AddText(font, font->FontSize, {std::round(at.x), std::round(at.y - height / 2)}, color,
+                     text.c_str(), nullptr, width_px);
+}
+
 void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                       const std::string& text) {
   draw_text(brush, font, {at.x - text_size(font, text).x, at.y}, color, text);

@@ -70,6 +70,9 @@ inline ImVec2 lower_right(const Rect& rect) {
 ImVec2 text_size(const ImFont* font, const std::string& text);
 void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                const std::string& text);
+/// In lines of this width, around the height of `at`.
+void draw_wrapped(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
+                  const std::string& text, float width_px);
 /// The text ends at `at` instead of beginning there.
 void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                       const std::string& text);

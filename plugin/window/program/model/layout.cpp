@@ -14,8 +14,12 @@ constexpr double kTimeline = 0.13, kPlots = 0.23;
 /// Of text, in pixels at a scale of 1; a fraction of the window at most.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
 /// The title, the button, a line and the film below each other; a fraction of the window at most.
-constexpr double kTimeline_px = 96, kTimelineMost = 0.2;
+constexpr double kTimeline_px = 96, kTimelineMost = 0.2, kTimelineAlone = 0.3;
 constexpr double kGap_px = 8;
+// Less than these cuts a title, a row of buttons, a value with its unit, or the labels of an axis;
+// in pixels at a scale of 1.
+constexpr double kPlotWidth_px = 140, kPlotHeight_px = 104, kControls_px = 236;
+constexpr double kGripHeight_px = 104, kTensionsHeight_px = 92;
 
 // Of the view: turned about y, then tilted, radians.
 constexpr double kTurn = 0.4, kTilt = 0.3;
@@ -38,13 +42,17 @@ double text_scale(double screen_scale, int width, int height) {
   return screen_scale * std::max(1.0, std::floor(kSteps * larger) / kSteps);
 }
 
-Layout lay_out(int width, int height, double scale, bool has_speed) {
+Layout lay_out(int width, int height, double scale, const Shown& shown) {
   const double w = std::max(width, 1), h = std::max(height, 1);
-  const double left = kLeft * w, gap = kGap_px * scale / 2;
+  const double left = std::clamp(w - kControls_px * scale, w / 3, kLeft * w);
+  const double gap = kGap_px * scale / 2;
+  const bool has_plots = kPlots * h >= kPlotHeight_px * scale;
+  const bool has_speed = shown.speed && 0.29 * left >= kPlotWidth_px * scale;
   const double status_y = h - std::min(kStatus_px * scale, kStatusMost * h);
-  const double plots_y = status_y - kPlots * h;
+  const double plots_y = status_y - (has_plots ? kPlots * h : 0);
+  const double timeline_most = (has_plots ? kTimelineMost : kTimelineAlone) * h;
   const double timeline_y =
-      plots_y - std::max(kTimeline * h, std::min(kTimeline_px * scale, kTimelineMost * h));
+      plots_y - std::max(kTimeline * h, std::min(kTimeline_px * scale, timeline_most));
   const Rect whole = Rect{0, 0, w, h}.inset(gap);
   const auto place = [&](double x, double y, double right_x, double bottom_y) {
     // Within the margin around all.
@@ -56,15 +64,18 @@ Layout lay_out(int width, int height, double scale, bool has_speed) {
   Layout layout;
   layout.picture = place(0, 0, left, timeline_y);
   layout.timeline = place(0, timeline_y, left, plots_y);
-  layout.force = place(0, plots_y, has_speed ? 0.42 * left : left, status_y);
-  if (has_speed) {
+  if (has_plots) layout.force = place(0, plots_y, has_speed ? 0.42 * left : left, status_y);
+  if (has_plots && has_speed) {
     layout.speed = place(0.42 * left, plots_y, 0.71 * left, status_y);
     layout.gain = place(0.71 * left, plots_y, left, status_y);
   }
   layout.status = place(0, status_y, left, h);
-  const double tensions_y = kGrip * h, controls_y = tensions_y + kTensions * h;
-  layout.grip = place(left, 0, w, tensions_y);
-  layout.tensions = place(left, tensions_y, w, controls_y);
+  const bool has_grip = shown.grip && kGrip * h >= kGripHeight_px * scale;
+  const bool has_tensions = shown.tensions && kTensions * h >= kTensionsHeight_px * scale;
+  const double tensions_y = has_grip ? kGrip * h : 0;
+  const double controls_y = tensions_y + (has_tensions ? kTensions * h : 0);
+  if (has_grip) layout.grip = place(left, 0, w, tensions_y);
+  if (has_tensions) layout.tensions = place(left, tensions_y, w, controls_y);
   layout.controls = place(left, controls_y, w, h);
   return layout;
 }

@@ -23,9 +23,13 @@ struct Layout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
   Rect grip, tensions, controls;                       ///< right
 };
-/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. Where no
-/// speed is measured, the plot of force replaces those of speed.
-Layout lay_out(int width, int height, double scale, bool has_speed = true);
+/// What there is to show.
+struct Shown {
+  bool speed = true, grip = true, tensions = true;
+};
+/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. What is not
+/// there, or would be too small to be read, has an empty rectangle, and the others its room.
+Layout lay_out(int width, int height, double scale, const Shown& shown = {});
 
 /// Maps pixels of the frame to pixels of the window.
 struct PictureMap {
