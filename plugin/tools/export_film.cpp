@@ -39,6 +39,20 @@ std::string relative_url(const fs::path& film, const fs::path& page) {
 
 constexpr const char* kMaker = "spidartrack export";
 
+/// As players find them: film.srt or film.en.srt for film.mp4.
+bool has_subtitles_beside(const fs::path& film) {
+  const std::string begin = film.stem().string() + ".";
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(fs::absolute(film).parent_path(), none)) {
+    const std::string name = entry.path().filename().string();
+    if (name.compare(0, begin.size(), begin) != 0) continue;
+    for (const char* end : {".srt", ".vtt", ".ass", ".ssa", ".sub"}) {
+      if (ends_with(name, end)) return true;
+    }
+  }
+  return false;
+}
+
 /// The bytes of a file, some at a time, from its beginning.
 void read_file(const std::string& path, size_t at_once,
                const std::function<void(const std::string&)>& take) {
@@ -84,7 +98,7 @@ class ExportedFilm {
       record(options.properties.value_or(parse_record_properties({}, 1)), *recorded);
     }
     read_forces(recorded ? recorded->path() : options.track);
-    has_subtitles_ = read_film(film_).has_subtitles;
+    has_subtitles_ = read_film(film_).has_subtitles || has_subtitles_beside(film_);
     place_arrow();
   }
 

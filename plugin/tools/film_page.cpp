@@ -71,7 +71,7 @@ namespace {
 constexpr int kZero = 128, kSteps = 127;  // of a byte that is a value
 
 /// See curveOf() of the page.
-std::string curve_text(const std::vector<double>& values, double tolerance, double most) {
+std::string curve_text(const std::vector<float>& values, double tolerance, double most) {
   std::string bytes;
   size_t before = 0;
   KeyframeChooser points(tolerance, [&](size_t i, double value) {
@@ -87,7 +87,7 @@ std::string curve_text(const std::vector<double>& values, double tolerance, doub
     bytes += static_cast<char>(kZero + std::lround(kSteps * value / most));
     before = i;
   });
-  for (const double value : values) points.add(value);
+  for (const float value : values) points.add(value);
   points.finish();
   return base64(bytes);
 }
@@ -106,26 +106,19 @@ std::string base64(const std::string& bytes) {
 }
 
 void FilmPage::add(const TrackSample& sample) {
-  const Eigen::Vector3d force_N = to_wrench(sample).force_N;
+  Eigen::Vector3d force_N = to_wrench(sample).force_N;
   for (size_t axis = 0; axis < kAxes; ++axis) {
-    const double now_N = force_N[static_cast<Eigen::Index>(axis)];
-    if (std::isfinite(now_N)) sum_N_[axis] += now_N;
+    double& now_N = force_N[static_cast<Eigen::Index>(axis)];
+    if (!std::isfinite(now_N)) now_N = 0;
+    force_N_[axis].push_back(static_cast<float>(now_N));
   }
-  if (++count_ < kStep_samples) return;
-  Eigen::Vector3d mean_N;
-  for (size_t axis = 0; axis < kAxes; ++axis) {
-    mean_N[static_cast<Eigen::Index>(axis)] = sum_N_[axis] / kStep_samples;
-    force_N_[axis].push_back(sum_N_[axis] / kStep_samples);
-  }
-  largest_N_ = std::max(largest_N_, mean_N.norm());
-  sum_N_ = {};
-  count_ = 0;
+  largest_N_ = std::max(largest_N_, force_N.norm());
 }
 
 void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
-  constexpr double kStep_ns = 1e9 * kStep_samples / kTrackRate_Hz;
+  constexpr double kStep_ns = 1e9 * kBoxStep_samples / kTrackRate_Hz;
   auto next = boxes.begin();
-  for (size_t step = 0; step < force_N_[0].size(); ++step) {
+  for (size_t step = 0; kBoxStep_samples * step < force_N_[0].size(); ++step) {
     const double now_ns = kStep_ns * static_cast<double>(step);
     while (next != boxes.end() && static_cast<double>(next->stream_ns) <= now_ns) ++next;
     FeltBox box;  // between two frames
@@ -137,7 +130,9 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
         box.edges[i] += share * (next->edges[i] - box.edges[i]);
       }
     }
-    for (size_t i = 0; i < box.edges.size(); ++i) edges_[i].push_back(2 * box.edges[i] - 1);
+    for (size_t i = 0; i < box.edges.size(); ++i) {
+      edges_[i].push_back(static_cast<float>(2 * box.edges[i] - 1));
+    }
   }
 }
 
@@ -150,22 +145,26 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
-  Json track = {
-      {"film", name},       {"url", url},
-      {"type", type},       {"unplayed", unplayed},
-      {"later_s", later_s}, {"step_s", static_cast<double>(kStep_samples) / kTrackRate_Hz},
-      {"most_N", most_N}};
+  Json track = {{"film", name},
+                {"url", url},
+                {"type", type},
+                {"unplayed", unplayed},
+                {"later_s", later_s},
+                {"step_s", 1.0 / kTrackRate_Hz},
+                {"most_N", most_N},
+                {"box_step_s", static_cast<double>(kBoxStep_samples) / kTrackRate_Hz},
+                {"is_felt", largest_N_ >= kFeltForce_N}};
   std::string html;
   // As exact as a hand can feel, or as there is room for in a long film.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
     track["force"] = Json::array();
-    for (const std::vector<double>& force_N : force_N_) {
+    for (const std::vector<float>& force_N : force_N_) {
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
     }
     track["box"] = Json::array();
     // Two edges that are off by so much each, and rounded, are a box no longer.
     track["least"] = edges_off + 0.5 / kSteps;
-    for (const std::vector<double>& edge : edges_) {
+    for (const std::vector<float>& edge : edges_) {
       if (edges_off < kMaxOff) track["box"].push_back(curve_text(edge, edges_off, 1));
     }
     edges_off *= kCoarser;

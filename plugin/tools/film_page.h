@@ -54,15 +54,13 @@ class FilmPage {
                    double later_s, const std::string& unplayed, double& tolerance_N) const;
 
  private:
-  /// Forces are shown at the rate of a screen.
-  static constexpr size_t kStep_samples = 10;
+  /// Boxes are shown at the rate of a screen.
+  static constexpr size_t kBoxStep_samples = 10;
   static constexpr size_t kAxes = 3;
 
-  std::array<double, kAxes> sum_N_{};  ///< of the samples of a step
-  size_t count_ = 0;
-  std::array<std::vector<double>, kAxes> force_N_;  ///< means of steps
+  std::array<std::vector<float>, kAxes> force_N_;
   double largest_N_ = 0;
-  std::array<std::vector<double>, 4> edges_;  ///< of FeltBox, from -1 to 1, of each step; or empty
+  std::array<std::vector<float>, 4> edges_;  ///< of FeltBox, from -1 to 1, of each step; or empty
 };
 
 }  // namespace spidar::tools

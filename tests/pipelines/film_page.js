@@ -10,27 +10,31 @@ const vm = require("vm");
 const [data, script] = [...fs.readFileSync(process.argv[2], "utf8")
   .matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map((found) => found[1]);
 
-let places = [], tip = null, origin = null, box = null, pulses = [], vibrated_ms = [], every = null, next = null;
+let places = [], tip = null, origin = null, box = null, ring = null, comes = null, arcs = [], pulses = [], vibrated_ms = [], every = null, next = null;
 let scale = null;  // pixels of the canvas in one of the page
 const pen = {
   setTransform(across, _0, _1, down) { scale = [across, down]; },
-  beginPath() { places = []; },
+  beginPath() { places = []; arcs = []; },
   moveTo(x, y) { places.push([x, y]); },
   lineTo(x, y) { places.push([x, y]); },
-  clearRect() { tip = origin = box = null; },
+  arc(_x, _y, radius) { arcs.push(radius); },
+  clearRect() { tip = origin = box = ring = comes = null; },
   // The second corner of the head.
   fillRect() {},
   fillText() {},
   fill() { if (pen.fillStyle === "white") tip = [places[1][0] - origin[0], origin[1] - places[1][1]]; },
   closePath() {},
-  stroke() { if (places.length === 2) [origin] = places; },  // the shaft
+  stroke() {
+    if (places.length === 2) [origin] = places;  // the shaft
+    if (arcs.length > 0) [ring, comes] = [arcs[0], arcs.length > 1];
+  },
   strokeRect(...args) { box = args; },
 };
 const part = (more) => ({ addEventListener() {}, ...more });
 const on = {};
 const film = part({ addEventListener(name, call) { on[name] = call; }, clientWidth: 800, clientHeight: 480, videoWidth: 400, videoHeight: 240, currentTime: 0, readyState: 4 });
 const parts = {
-  track: { textContent: data }, film, said: part(), wide: part(), stage: { requestFullscreen() {} }, pad: part(), rumble: part({ checked: true }),
+  track: { textContent: data }, film, said: part(), how: part(), begin: part(), wide: part(), stage: part({ requestFullscreen() {} }), pad: part(), rumble: part({ checked: true }),
   arrow: { getContext: () => pen },
 };
 const actuator = { playEffect(kind, effect) { pulses.push(effect.strongMagnitude); return Promise.resolve(); } };
@@ -39,6 +43,8 @@ const page = {
   navigator: { getGamepads: () => [null, { vibrationActuator: actuator }], vibrate(ms) { vibrated_ms.push(ms); } },
   atob, Uint8Array, Math, Array, JSON,
   requestAnimationFrame(call) { next = call; },
+  ResizeObserver: class { observe() {} },
+  addEventListener() {},
   setInterval(call) { every = call; },
 };
 const others = {
@@ -59,7 +65,7 @@ const moments = process.argv.slice(3).map((time) => {
   vibrated_ms = [];
   next();
   every();
-  return { tip, origin, box, said: parts.said.textContent, pulses, vibrated_ms };
+  return { tip, origin, box, ring, comes, said: parts.said.textContent, pulses, vibrated_ms };
 });
 /** The strongest of ten pulses, after the first three, while the film is so and its time runs or stands. */
 const strongest = (state, step_s) => {
@@ -83,21 +89,20 @@ const canvases = [1, 2, 1.25].map((fineness) => {
   return [parts.arrow.width, parts.arrow.height, ...scale];
 });
 film.paused = true;
+next();
+next = null;
+const drawsPaused = next !== null;
 pulses = [];
 vibrated_ms = [];
 for (let i = 0; i < 3; ++i) every();
-/** Where it plays from after it was opened, and after this was done to it. */
-const playedFrom = (change) => {
+/** Where it stands when it was opened, and whether with controls; and when it plays. */
+const poster = () => {
   film.currentTime = 0;
   on.loadedmetadata();
-  change();
-  on.seeking();
+  const poster = [film.currentTime, !!film.controls];
   on.play();
-  return film.currentTime;
+  return [...poster, film.currentTime, film.controls];
 };
-let poster_s = null;
-const begins_s = playedFrom(() => { poster_s = film.currentTime; });
-const sought_s = playedFrom(() => { film.currentTime = poster_s / 2; });
 console.log(JSON.stringify({
-  poster_s, begins_s, sought_s, moments, waiting, canvases, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
+  poster: poster(), drawsPaused, how: parts.how.textContent, moments, waiting, canvases, paused: { pulses, vibrated_ms }, url: film.src, title: page.document.title,
   about: parts.pad.textContent, wide: !parts.wide.hidden, most_N: JSON.parse(data).most_N, later_s: JSON.parse(data).later_s }));

@@ -19,7 +19,6 @@ from track_case import FULL_SCALE
 
 FILM_PAGE_JS = pathlib.Path(sys.argv.pop(1)).resolve()
 MOST_BYTES = 100_000
-STEP_MS = 10
 HEIGHT_PX = 480  # of the picture that film_page.js shows
 
 # Beside the page's own: plays the film without a click, and tells at its end when a gamepad was vibrated, how strongly.
@@ -54,10 +53,9 @@ HAS_ENCODER = any(subprocess.run(["gst-inspect-1.0", "--exists", element], check
                   for element in ("x264enc", "openh264enc"))
 
 
-def mean_force(samples, step):
-    """In newtons, of the samples of a step of the page."""
-    of_step = samples[STEP_MS * step:STEP_MS * (step + 1)]
-    return [FULL_SCALE[axis] * sum(sample[axis] for sample in of_step) / STEP_MS for axis in range(3)]
+def force_at(samples, ms):
+    """In newtons."""
+    return [FULL_SCALE[axis] * samples[ms][axis] for axis in range(3)]
 
 
 class FilmPage(track_case.TrackCase):
@@ -76,19 +74,23 @@ class FilmPage(track_case.TrackCase):
         return json.loads(said.splitlines()[-1])  # after warnings of node's own
 
     def assert_shows(self, samples, tolerance_N):
-        steps = range(0, len(samples) // STEP_MS, 7)
-        shown = self.run_page(*(step * STEP_MS / 1000 for step in steps))
+        times_ms = range(0, len(samples), 73)
+        shown = self.run_page(*(ms / 1000 for ms in times_ms))
         most_N = shown["most_N"]
         px_N = HEIGHT_PX / 5 / most_N
         # Along each of three axes, and "1.5 N" is rounded.
         size_N = math.sqrt(3) * tolerance_N
-        for step, moment in zip(steps, shown["moments"]):
-            force_N = mean_force(samples, step)
+        for ms, moment in zip(times_ms, shown["moments"]):
+            force_N = force_at(samples, ms)
             if moment["tip"]:
                 for axis in range(2):
                     self.assertAlmostEqual(moment["tip"][axis] / px_N, force_N[axis], delta=tolerance_N)
             else:  # shorter than it is wide
                 self.assertLess(math.hypot(*force_N[:2]), HEIGHT_PX / 80 / px_N + size_N)
+            self.assertEqual(moment["ring"] is not None, abs(force_N[2]) * px_N > HEIGHT_PX / 80, msg=f"{ms} ms") \
+                if abs(abs(force_N[2]) * px_N - HEIGHT_PX / 80) > tolerance_N * px_N else None
+            if moment["ring"]:
+                self.assertAlmostEqual(moment["ring"] / px_N * (1 if moment["comes"] else -1), force_N[2], delta=tolerance_N)
             self.assertAlmostEqual(float(moment["said"].split()[0]), math.hypot(*force_N), delta=size_N + .05)
             for strength in moment["pulses"]:
                 self.assertAlmostEqual(strength * most_N, math.hypot(*force_N), delta=size_N)
@@ -105,11 +107,34 @@ class FilmPage(track_case.TrackCase):
         shown = self.assert_shows(self.samples("a film.avi.haptic.wav"), tolerance_N)
         self.assertEqual((shown["url"], shown["title"]), ("a%20film.avi", "a film.avi"))
         self.assertGreater(max(map(len, (moment["pulses"] for moment in shown["moments"]))), 0)
-        # Before it plays, the page shows the moment of the largest force; a seek of the user is kept.
-        poster_s = shown["poster_s"]
-        self.assertAlmostEqual(math.hypot(*mean_force(self.samples("a film.avi.haptic.wav"), round(100 * poster_s))),
+        self.assertFalse(shown["drawsPaused"])
+        # Before it plays, the page shows the moment of the largest force, whose time no controls show.
+        poster_s, *shows = shown["poster"]
+        self.assertAlmostEqual(math.hypot(*force_at(self.samples("a film.avi.haptic.wav"), round(1000 * poster_s))),
                                shown["most_N"], delta=math.sqrt(3) * tolerance_N)
-        self.assertEqual((shown["begins_s"], shown["sought_s"]), (0, poster_s / 2))
+        self.assertEqual(shows, [False, 0, True])
+
+    @track_case.needs("node")
+    def test_a_step_of_the_force_is_in_its_place(self):
+        """A rise by 36 N/s, and back: a mean of ten samples would be off by 0.16 N beside them, 0.09 N between."""
+        self.make_film()
+        self.make_track("film.avi.haptic.wav", count=1000,
+                        sample=lambda ms: (3.6e-3 * max(0, 50 - abs(ms - 500)), 0, -2e-3 * max(0, 50 - abs(ms - 700)), 0, 0, 0))
+        tolerance_N = self.export("film.avi")
+        samples = self.samples("film.avi.haptic.wav")
+        times_ms = range(440, 760)
+        shown = self.run_page(*(ms / 1000 for ms in times_ms))
+        for ms, moment in zip(times_ms, shown["moments"]):
+            for strength in moment["pulses"]:
+                self.assertAlmostEqual(strength * shown["most_N"], math.hypot(*force_at(samples, ms)), delta=tolerance_N)
+
+    @track_case.needs("node")
+    def test_a_film_without_force_says_so(self):
+        self.make_film()
+        for size, how in ((0, "A hand would feel nothing"), (.003, "A hand would feel nothing"), (.01, "The arrow is")):
+            self.make_track("film.avi.haptic.wav", sample=lambda ms: (size, 0, 0, 0, 0, 0))
+            self.export("film.avi")
+            self.assertIn(how, self.run_page(0).get("how") or self.path("page.html").read_text(encoding="utf-8"))
 
     @track_case.needs("node", "ffmpeg")
     def test_the_arrow_stands_on_what_is_felt(self):
@@ -335,10 +360,15 @@ class FilmPage(track_case.TrackCase):
     @track_case.needs("ffmpeg")
     def test_a_page_without_the_subtitles_of_its_film_says_so(self):
         self.make_mpeg4("film.mkv")
-        self.path("film.srt").write_text("1\n00:00:01,000 --> 00:00:02,000\nHere\n", encoding="utf-8")
-        self.run_in_folder("ffmpeg -nostdin -v error -i film.mkv -i film.srt -map 0 -map 1 -c copy told.mkv")
-        self.assertIn("; without its subtitles", self.spidartrack("export", "told.mkv", "told.html"))
-        self.assertNotIn("subtitles", self.spidartrack("export", "film.mkv", "film.html"))
+        self.path("one.srt").write_text("1\n00:00:01,000 --> 00:00:02,000\nHere\n", encoding="utf-8")
+        for told, codec in (("told.mkv", "srt"), ("text.mp4", "mov_text")):
+            self.run_in_folder("ffmpeg -nostdin -v error -i film.mkv -i one.srt -map 0 -map 1 -c copy "
+                               f"-c:s {codec} {told}")
+            self.assertIn("; without its subtitles", self.spidartrack("export", told, told + ".html"))
+        for beside, is_lost in (("film.srt", True), ("film.de.vtt", True), ("film.txt", False), ("films.srt", False)):
+            self.path("one.srt").rename(self.path(beside))
+            self.assertEqual("subtitles" in self.spidartrack("export", "film.mkv", beside + ".html"), is_lost, beside)
+            self.path(beside).rename(self.path("one.srt"))
 
     @unittest.skipUnless(HAS_ENCODER, "needs an encoder of H.264")
     @track_case.needs("chromium", "ffmpeg")
@@ -378,11 +408,11 @@ class FilmPage(track_case.TrackCase):
         pulses = self.probe(page)
         self.assertGreater(len(pulses), 2)
         samples = self.samples("film.webm.haptic.wav")
-        most_N = max(math.hypot(*mean_force(samples, step)) for step in range(200))
+        most_N = max(math.hypot(*force_at(samples, ms)) for ms in range(2000))
         for time_s, strength in pulses[:-1]:  # the last one ends it
-            # Of the step before, while the force of track_case.wave() changes by less than 20 N/s.
-            force_N = math.hypot(*mean_force(samples, min(int(100 * time_s), 199)))
-            self.assertAlmostEqual(strength * most_N, force_N, delta=math.sqrt(3) * tolerance_N + .01 * 20)
+            force_N = math.hypot(*force_at(samples, min(round(1000 * time_s), 1999)))
+            # The time may have gone on by a millisecond, in which the force of track_case.wave() changes by 20 N/s.
+            self.assertAlmostEqual(strength * most_N, force_N, delta=math.sqrt(3) * tolerance_N + .001 * 20)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ import track_case
 
 try:
     from selenium import webdriver
+    from selenium.webdriver.common.action_chains import ActionChains
     from selenium.webdriver.chrome.service import Service as ChromeService
     from selenium.webdriver.common.by import By
 except ImportError:
@@ -119,6 +120,38 @@ class Page(screen.ScreenCase, track_case.TrackCase):
     def seek(self, browser, time_s):
         browser.execute_script("film.pause(); film.currentTime = arguments[0];", time_s)
         self.wait(browser, f"!film.seeking && Math.abs(film.currentTime - {time_s}) < .05 && film.readyState > 1")
+
+    def test_a_click_and_the_space_bar_play_and_pause(self):
+        self.make_page()
+        for name, browser in self.browse():
+            for width, height in (390, 844), (1280, 800):
+                browser.set_window_size(width, height)
+                browser.refresh()
+                self.wait(browser, "film.readyState > 1 && !film.seeking && film.currentTime > 1")
+                self.assertEqual(self.look(browser, f"{name}-poster-{width}")["over"], [0, 0])
+                self.assertEqual(browser.execute_script("return [film.controls, part('begin').hidden]"), [False, False])
+                browser.execute_script("film.loop = film.muted = true;")  # however long the clicks take
+                picture = browser.find_element(By.ID, "stage")
+
+                def space():
+                    ActionChains(browser).send_keys(" ").perform()
+
+                def click():
+                    ActionChains(browser).move_to_element_with_offset(picture, 0, -60).click().perform()
+                for act in (space, space, click, click, space):
+                    was_paused = browser.execute_script("return film.paused")
+                    act()
+                    self.wait(browser, f"film.paused === {str(not was_paused).lower()}")
+                self.assertEqual(browser.execute_script("return [film.controls, part('begin').hidden]"), [True, True])
+                self.look(browser, f"{name}-plays-{width}")
+                browser.execute_async_script("setTimeout(arguments[0], 300)")  # nothing else pauses it again
+                self.assertFalse(browser.execute_script("return film.paused"))
+                browser.execute_script("film.pause()")
+                browser.execute_async_script("requestAnimationFrame(() => requestAnimationFrame(arguments[0]))")
+                browser.execute_script("window.drawn = 0; canvas.getContext('2d').clearRect = () => ++drawn;")
+                browser.execute_async_script("setTimeout(arguments[0], 300)")
+                self.assertEqual(browser.execute_script("return drawn"), 0)
+                self.assertEqual(browser.execute_script("return faults"), [])
 
     def test_it_loads_plays_seeks_and_shows_the_force_of_the_moment(self):
         self.make_page()
