@@ -21,6 +21,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Of words that no shell changes.
+constexpr const char* kPlainLetters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
+
 /// The properties that are marked with analysis_mark(), in the order of the alphabet.
 std::vector<std::string> names_of_analysis(GstElement* element) {
   guint count = 0;
@@ -111,15 +115,30 @@ std::string one_line(const std::map<std::string, std::string>& settings) {
   return line;
 }
 
-/// Other programs name what they write after what they read.
-void expect_no_output(const std::string& film) {
-  const std::string end = fs::path(film).extension().string();
-  if ((end != ".flac" && end != ".mka" && end != ".wav") || fs::exists(film)) return;
-  throw UsageError(film + ": there is no such film; a track is named after its film, " +
-                   "FILM.haptic.flac, and --folder says where it goes");
+bool ends_as_track(const std::string& name) {
+  const std::string end = fs::path(name).extension().string();
+  return end == ".flac" || end == ".mka" || end == ".wav";
 }
 
 }  // namespace
+
+void refuse_output(const std::string& film, const std::string& output) {
+  const auto quoted = [](const std::string& word) {
+    const bool is_plain = word.find_first_not_of(kPlainLetters) == std::string::npos;
+    return is_plain ? word : taken(g_shell_quote(word.c_str()));
+  };
+  const std::string format =
+      ends_as_track(output) ? fs::path(output).extension().string() : ".flac";
+  std::string line = "spidartrack record " + quoted(film);
+  std::error_code none;
+  if (output.back() == '/' || fs::is_directory(output, none)) {
+    line += " --folder " + quoted(output);
+  } else {
+    line += (format == ".flac" ? "" : " --format " + format.substr(1)) + " && mv " +
+            quoted(film + ".haptic" + format) + " " + quoted(output);
+  }
+  throw UsageError(output + ": a track is named after its film; type: " + line);
+}
 
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film) {
   RecordProperties result = properties;
@@ -198,7 +217,10 @@ void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
   for (const std::string& film : names) {
     expect_no_property(film, "record FILM");
-    expect_no_output(film);
+    // Other programs name what they write after what they read.
+    if (film != names.front() && ends_as_track(film) && !fs::exists(film)) {
+      refuse_output(names.front(), film);
+    }
   }
   options.films = list_films(names, options.left_out);
   options.properties = parse_record_properties(properties, options.films.size());

@@ -34,6 +34,9 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
 /// parse_record_properties() does.
 RecordProperties properties_of(const std::string& settings);
 
+/// Throws UsageError with the line to type in place of one that names the track of `film`.
+[[noreturn]] void refuse_output(const std::string& film, const std::string& output);
+
 /// Throws UsageError for what looks like a property where a film is expected: `command` is what
 /// comes before the dashes.
 void expect_no_property(const std::string& film, const std::string& command);

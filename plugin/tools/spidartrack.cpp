@@ -107,8 +107,10 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
                     "is in its track")
         ->type_name("FILE");
     app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
+    app->add_option("-o,--output", to_)->group("");  // as other programs have it
   }
   int record() {
+    if (!to_.empty()) refuse_output(films_.front(), to_);
     // Of a film, the part file and both ends of a pipe are open, and one more while its process
     // begins; besides them, the manifest and what libraries open.
     constexpr rlim_t kOfFilm = 4, kOthers = 32;

@@ -80,21 +80,21 @@ class Bench {
 
 class Progress {
  public:
-  explicit Progress(double seconds) : seconds_(seconds), shown_(isatty(STDERR_FILENO) != 0) {}
+  explicit Progress(double seconds) : seconds_(seconds), is_terminal_(isatty(STDERR_FILENO) != 0) {}
   ~Progress() {
-    if (shown_ && last_ >= 0) std::fputc('\n', stderr);
+    if (is_terminal_ && last_ >= 0) std::fputc('\n', stderr);
   }
 
   void show(double time_s) {
     const int left = static_cast<int>(std::ceil(std::max(0.0, seconds_ - std::max(0.0, time_s))));
-    if (!shown_ || left == last_) return;
+    if (left == last_) return;
     last_ = left;
-    std::fprintf(stderr, "\r%4d s left ", left);
+    std::fprintf(stderr, is_terminal_ ? "\r%4d s left " : "%4d s left\n", left);
   }
 
  private:
   double seconds_;
-  bool shown_;
+  bool is_terminal_;  ///< which has one line for it
   int last_ = -1;
 };
 
@@ -134,9 +134,10 @@ calibration::CountSamples record(const CalibrateOptions& options, const Profile&
       // Only now is the device open.
       std::cerr
           << (options.centre
-                  ? "Hold the grip still at the centre, without turning it.\n"
+                  ? std::string("Hold the grip still at the centre, without turning it.\n")
                   : "Begin at the centre. Move and turn the grip in every direction, as far as it "
-                    "goes.\n");
+                    "goes, for " +
+                        as_text(seconds) + " s.\n");
       begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
     }
     sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));

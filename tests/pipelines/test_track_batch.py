@@ -67,7 +67,12 @@ class Batch(track_case.TrackCase):
         self.assertIn("is there", self.spidartrack("record", "a film.avi", "b.avi"))
         self.assertEqual(os.stat(self.path("b.avi.haptic.flac")).st_mtime_ns, before)
         self.assert_said("there is no such file", "record", "none.avi")
-        self.assert_said("a track is named after its film", "record", "a film.avi", "none.flac", status=2)
+        for words, line in ((["none.flac"], "&& mv 'a film.avi.haptic.flac' none.flac"),
+                            (["-o", "a track.flac"], "&& mv 'a film.avi.haptic.flac' 'a track.flac'"),
+                            (["--output=out.wav"], "--format wav && mv 'a film.avi.haptic.wav' out.wav"),
+                            (["-oout"], "&& mv 'a film.avi.haptic.flac' out"), (["-o", "out/"], "--folder out/")):
+            self.assert_said(": a track is named after its film; type: spidartrack record 'a film.avi' " + line, "record",
+                             "a film.avi", *words, status=2)
         self.spidartrack("record", "--format", "wav", "b.avi", "--", "max-force=1")
         for sample in self.samples("b.avi.haptic.wav"):
             self.assertLessEqual(sum(value * value for value in sample[:3]) ** .5, .1 + 1e-6)

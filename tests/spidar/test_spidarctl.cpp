@@ -176,6 +176,7 @@ TEST(Spidarctl, MotionFindsWhereTheCountersWereCleared) {
   const CommandResult outcome =
       run_spidarctl("calibrate sim --move 4 --force --output " + file.path());
   EXPECT_EQ(outcome.status, 0) << outcome.text;
+  expect_contains(outcome.text, "for 4 s.\n   4 s left\n   3 s left\n");
   expect_contains(outcome.text, "solved");
   const spidar::Profile profile = spidar::load_profile(file.path());
   ASSERT_TRUE(profile.calibration);
