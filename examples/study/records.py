@@ -200,7 +200,7 @@ def read_settings(answers, part="settings"):
             settings = json.loads(path.read_text(encoding="utf-8"))
             preview = settings.pop("preview")
             return preview if part == "preview" else settings
-        except (ValueError, RecursionError, AttributeError, LookupError) as error:
+        except (ValueError, RecursionError, AttributeError, TypeError, LookupError) as error:
             raise ValueError(f"{path}: is not as this program wrote it ({error}); put it back as it was") from error
     if part == "preview" or read_answers(answers):
         raise ValueError(f"{path}: is missing, so nobody knows with what {answers} was made; put it back")
