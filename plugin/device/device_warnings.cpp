@@ -37,9 +37,12 @@ std::string why_lost(const HapticSession& session) {
     case LinkFault::kNone:
       return "The haptic device does not answer.";
     case LinkFault::kStoodStill:
-      return "The guardian has set the haptic device to rest, because the player stood still.";
+      return "The haptic device was set to rest, because the player stood still.";
     case LinkFault::kUnguarded:
       return "The haptic device was set to rest, because its guardian has ended.";
+    case LinkFault::kBabble:
+      return "The haptic device sends more than it is asked for, so that nobody knows how old its "
+             "answers are.";
     default:
       return std::string("The haptic device does not answer: ") + to_string(fault) + ".";
   }

@@ -196,22 +196,25 @@ bool Guardian::say(HostWord word) noexcept {
 
 bool Guardian::watch(bool pulling) noexcept {
   if (socket_ < 0 || getpid() != owner_) return false;
+  constexpr int64_t kMillisecond_ns = kSecond_ns / 1000, kBeat_ns = kBeat_ms * kMillisecond_ns;
+  const int64_t now_ns = monotonic_now_ns();
+  int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
+  stood_still_ |= pulling_ && passed_ns > kSilence_ms * kMillisecond_ns;
+  // At rest nothing is at stake: what has stopped this process, as a virtual machine that gets no
+  // processor, may have stopped the guardian as well, and a pause counts as a beat.
+  if (!pulling_) passed_ns = std::min(passed_ns, kBeat_ns);
+  silent_ns_ += passed_ns;
   GuardianWord answer{};
   ssize_t got = 0;
   while ((got = recv(socket_, &answer, 1, MSG_DONTWAIT)) > 0) {
-    zeroed_ |= answer == GuardianWord::kZeroed;
-    answered_ = true;
+    stood_still_ |= answer == GuardianWord::kZeroed;
+    silent_ns_ = passed_ns;  // it said so after the last call, at some time
   }
-  if (zeroed_ || got == 0 || errno != EAGAIN) return false;
-  constexpr int64_t kBeat_ns = kBeat_ms * kSecond_ns / 1000;
-  const int64_t now_ns = monotonic_now_ns();
-  const int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
-  silent_ns_ = answered_ ? 0 : silent_ns_ + std::min(passed_ns, kBeat_ns);
-  if (silent_ns_ > kAnswer_ms * kSecond_ns / 1000) return false;
+  if (stood_still_ || got == 0 || errno != EAGAIN) return false;
+  if (silent_ns_ > kAnswer_ms * kMillisecond_ns) return false;
   if (pulling == pulling_ && now_ns - said_ns_ < kBeat_ns) return true;
   pulling_ = pulling;
   said_ns_ = now_ns;
-  answered_ = false;
   return say(pulling ? HostWord::kPulling : HostWord::kResting);
 }
 

@@ -54,10 +54,13 @@ static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill:
               "the layout must be the same in 32-bit and 64-bit programs");
 
 /// A host that exchanges with its board sends a message at least every kBeat_ms. If its motors pull
-/// and none arrives for kSilence_ms, the guardian assumes that the host is stopped, by a signal, a
-/// debugger, or a fault of its own, and sets its motors to zero. If an answer is kAnswer_ms late,
-/// the host assumes the same of its guardian, so that a stopped guardian is noticed within 100 ms,
-/// also at rest.
+/// and none arrives for kSilence_ms, the host stands still: it is stopped by a signal or a
+/// debugger, has a fault of its own, or gets no processor, and the guardian sets its motors to
+/// zero. A host that finds its own clock so late does the same, because whatever stopped it may
+/// have stopped the guardian as well. If the host runs and hears nothing for kAnswer_ms, its
+/// guardian is dead or stopped. So motors that pull are at zero kAnswer_ms after their guardian has
+/// stopped if the host runs all the time, and kAnswer_ms + kSilence_ms after that if it runs every
+/// kSilence_ms; if it runs less often, at its next turn.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
 /// Duration of every effect of an input device, so that none outlasts a program that hangs or is
@@ -110,13 +113,12 @@ class Guardian {
 
   /// To be called in every exchange. `pulling` must be true as long as the motors are not at zero,
   /// from before the first voltage to after the last. Returns false if the guardian no longer
-  /// works: it was killed, has not answered for kAnswer_ms, or has zeroed the motors because this
-  /// process did not call watch() in time. The caller must then set the motors to zero and create
-  /// another guardian.
+  /// works, because it was killed or has been silent for kAnswer_ms, or if this process
+  /// stood_still(). The caller must then set the motors to zero and create another guardian.
   bool watch(bool pulling) noexcept;
 
-  /// The guardian has zeroed the motors because this process did not call watch() in time.
-  bool zeroed() const noexcept { return zeroed_; }
+  /// While the motors pulled, this process did not call watch() for kSilence_ms.
+  bool stood_still() const noexcept { return stood_still_; }
 
   /// Makes the guardian zero the motors now, for the case that the board is released but the motors
   /// could not be zeroed. Returns after kEnd_s at the latest; the guardian goes on trying until the
@@ -140,13 +142,10 @@ class Guardian {
   pid_t process_ = -1;  ///< −1: it is a service
   pid_t owner_ = -1;
   bool pulling_ = false;  ///< as the guardian knows it
-  bool zeroed_ = false;   ///< the motors, by the guardian
-  bool answered_ = true;
+  bool stood_still_ = false;
   int64_t said_ns_ = 0;
   int64_t watched_ns_ = 0;
-  /// Without an answer. A pause between two calls counts as a beat at most: what stops this
-  /// process, as a virtual machine that gets no processor, may have stopped the guardian as well.
-  int64_t silent_ns_ = 0;
+  int64_t silent_ns_ = 0;  ///< since the guardian was certainly at work
 };
 
 }  // namespace spidar

@@ -153,9 +153,9 @@ bool LinkThread<BoardType>::guarded(bool pulling) noexcept {
 
 template <typename BoardType>
 LinkFault LinkThread<BoardType>::why_unguarded() const noexcept {
-  const bool zeroed = std::any_of(guardians_.begin(), guardians_.end(),
-                                  [](const auto& guardian) { return guardian->zeroed(); });
-  return zeroed ? LinkFault::kStoodStill : LinkFault::kUnguarded;
+  const bool still = std::any_of(guardians_.begin(), guardians_.end(),
+                                 [](const auto& guardian) { return guardian->stood_still(); });
+  return still ? LinkFault::kStoodStill : LinkFault::kUnguarded;
 }
 
 template <typename BoardType>
@@ -252,9 +252,9 @@ bool LinkThread<BoardType>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
-    // After a counter jump or a strange answer the board has received the output.
+    // After a counter jump, a strange answer or one too many the board has received the output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
-        fault == LinkFault::kWrongReply) {
+        fault == LinkFault::kWrongReply || fault == LinkFault::kBabble) {
       return true;
     }
     if (fault == LinkFault::kGone) break;

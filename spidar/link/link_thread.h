@@ -100,7 +100,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   // Used by the thread that exchanges.
   int errors_in_a_row_ = 0;
   bool pulling_ = false;  ///< the output of the board may differ from zero
-  // Not kNone: a guardian failed, or zeroed the motors, which stay at zero until open().
+  // Not kNone: a guardian failed, or this process stood still; the motors rest until open().
   LinkFault unguarded_ = LinkFault::kNone;
 
   std::thread thread_;

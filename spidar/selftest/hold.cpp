@@ -13,7 +13,7 @@ std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns)
     const int64_t late_ms = late_ns / 1'000'000;
     return name + ": this program stood still" +
            (late_ms > 0 ? " for " + std::to_string(late_ms) + " ms" : "") +
-           ", because it was stopped or the machine was busy, so its guardian set the motors to "
+           ", because it was stopped or the machine was busy, so the motors were set to "
            "zero; start it again";
   }
   if (fault == LinkFault::kUnguarded) {

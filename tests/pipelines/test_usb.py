@@ -366,7 +366,7 @@ class Joysticks(Pipelines):
             said = self.path("log").read_text()
         running.send_signal(signal.SIGINT)
         running.wait()
-        self.assertIn("The guardian has set the haptic device to rest, because the player stood still. The video continues "
+        self.assertIn("The haptic device was set to rest, because the player stood still. The video continues "
                       "without it.", said)
 
 

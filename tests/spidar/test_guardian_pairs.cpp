@@ -3,6 +3,7 @@
 /// Two faults at once: of the player, its guardian, the board, and the control group of the player.
 #include <cerrno>
 #include <csignal>
+#include <memory>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -163,26 +164,63 @@ TEST(GuardianPairs, AStoppedGuardianIsNoticedWithin100Ms) {
   if (seen == 0) GTEST_SKIP() << "this machine was busy";
 }
 
-/// What stops a player, as a virtual machine that gets no processor, may have stopped its guardian
-/// as well: a pause of the player, however long, is one beat of the guardian's silence.
-TEST(GuardianPairs, APlayerThatPausedGivesItsGuardianTime) {
-  std::array<int, 2> ends{};
-  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
-  LastWill will;
-  will.wire = LastWill::Wire::kSocket;
-  will.file = ends[0];
-  Guardian guardian("pair", will);
-  const pid_t process = guardian_process();
-  kill(process, SIGSTOP);
-  EXPECT_TRUE(guardian.watch(false));
-  for (int beats = kBeat_ms; beats <= kAnswer_ms; beats += kBeat_ms) {
-    sleep_ms(2 * kBeat_ms);
-    EXPECT_TRUE(guardian.watch(false)) << beats;
+/// A guardian without a board.
+struct Watched {
+  Watched() {
+    EXPECT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+    LastWill will;
+    will.wire = LastWill::Wire::kSocket;
+    will.file = ends[0];
+    guardian = std::make_unique<Guardian>("pair", will);
+    process = guardian_process();
   }
-  sleep_ms(2 * kBeat_ms);
-  EXPECT_FALSE(guardian.watch(false));
-  kill(process, SIGCONT);
-  for (const int end : ends) ::close(end);
+  ~Watched() {
+    kill(process, SIGCONT);
+    guardian.reset();
+    for (const int end : ends) ::close(end);
+  }
+  std::array<int, 2> ends{};
+  std::unique_ptr<Guardian> guardian;
+  pid_t process = 0;
+};
+
+/// What stops a player, as a virtual machine that gets no processor, may have stopped its guardian
+/// as well: at rest, a pause of the player, however long, is one beat of the guardian's silence.
+TEST(GuardianPairs, APlayerThatPausedAtRestGivesItsGuardianTime) {
+  const Watched watched;
+  kill(watched.process, SIGSTOP);
+  int calls = 1;
+  for (; watched.guardian->watch(false); ++calls) sleep_ms(2 * kBeat_ms);
+  EXPECT_GE(calls, kAnswer_ms / kBeat_ms);
+  EXPECT_LE(calls, kAnswer_ms / kBeat_ms + 2);
+  EXPECT_FALSE(watched.guardian->stood_still());
+}
+
+/// However seldom the player gets a processor: the time that it did not run counts.
+TEST(GuardianPairs, AStoppedGuardianIsNoticedInRealTimeWhileMotorsPull) {
+  for (const int pause_ms : {1, 20, 30, kSilence_ms - 5}) {
+    const Watched watched;
+    ASSERT_TRUE(watched.guardian->watch(true));
+    kill(watched.process, SIGSTOP);
+    const int64_t stopped_ns = monotonic_now_ns();
+    int64_t called_ns = stopped_ns, before_ns = 0;
+    do {
+      sleep_ms(pause_ms);
+      before_ns = std::exchange(called_ns, monotonic_now_ns());
+    } while (watched.guardian->watch(true));
+    // Any call after that time notices, however late this test was.
+    EXPECT_LE(before_ns - stopped_ns, kAnswer_ms * kSecond_ns / 1000) << pause_ms;
+  }
+}
+
+/// Its guardian would have zeroed the motors: nobody asks whether it has.
+TEST(GuardianPairs, APlayerThatStoodStillWhileMotorsPulledRests) {
+  const Watched watched;
+  ASSERT_TRUE(watched.guardian->watch(true));
+  kill(watched.process, SIGSTOP);
+  sleep_ms(kSilence_ms + 1);
+  EXPECT_FALSE(watched.guardian->watch(true));
+  EXPECT_TRUE(watched.guardian->stood_still());
 }
 
 /// A control group of version 2, if this process may make one; it ends with its processes.
