@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/whole_file.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -118,8 +119,6 @@ bool write_all(int file, const std::string& text) {
 
 void replace_file(const std::filesystem::path& named_file, const std::string& text) {
   const std::filesystem::path file = place_of_output(named_file);
-  // Its name does not depend on that of the file, which may be as long as the system allows.
-  const std::string part = file.parent_path() / (".spidar-" + std::to_string(getpid()) + ".part");
   const auto fail = [&] {
     throw std::runtime_error(file.string() + ": cannot be written: " + std::strerror(errno));
   };
@@ -133,7 +132,17 @@ void replace_file(const std::filesystem::path& named_file, const std::string& te
     throw std::runtime_error(file.string() + ": cannot be written: there is no folder " +
                              folder.string());
   }
-  const int opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  // Its name does not depend on that of the file, which may be as long as the system allows. It is
+  // a new one for each save: another thread, or a process of this number that was killed, has used
+  // others.
+  static std::atomic<unsigned> saves{0};
+  const std::string name = ".spidar-" + std::to_string(getpid()) + "-";
+  std::string part;
+  int opened = -1;
+  do {
+    part = folder / (name + std::to_string(saves++) + ".part");
+    opened = open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+  } while (opened < 0 && errno == EEXIST);
   if (opened < 0) fail();
   keep_permissions(opened, file);
   const bool written = write_all(opened, text);

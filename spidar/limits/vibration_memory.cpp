@@ -40,6 +40,31 @@ constexpr int64_t kMax_ns = 4 * VibrationMemory::kUnknown_ns;
 /// Of the text in the file.
 constexpr size_t kMaxText = 200;
 
+/// Root may write everything anyway, as with a home that sudo has kept.
+bool is_of_another(const struct stat& status) {
+  return status.st_uid != geteuid() && geteuid() != 0;
+}
+
+/// The owner that a user namespace, as of a container, shows for root outside of it (overflowuid).
+constexpr uid_t kUnmapped = 65534;
+
+/// The first folder above the file in which others may remove or rename what leads to it; empty if
+/// there is none. A sticky folder lets everybody do so with his own files only. A group that this
+/// user belongs to by default is taken for his own.
+std::string folder_of_others(const fs::path& file) {
+  std::error_code error;
+  for (fs::path folder = fs::canonical(file, error); folder.has_relative_path();) {
+    folder = folder.parent_path();
+    struct stat status {};
+    if (stat(folder.c_str(), &status) != 0) continue;
+    const mode_t others = S_IWOTH | (status.st_gid == getegid() ? 0 : S_IWGRP);
+    const bool is_open = (status.st_mode & others) != 0 && (status.st_mode & S_ISVTX) == 0;
+    const bool is_of_system = status.st_uid == 0 || status.st_uid == kUnmapped;
+    if (is_open || (!is_of_system && is_of_another(status))) return folder;
+  }
+  return {};
+}
+
 /// An open file that nobody else has locked, or errno.
 class LockedFile {
  public:
@@ -55,15 +80,12 @@ class LockedFile {
     } else if (!lock_device(file_)) {
       error = errno;
     }
-    struct stat folder {};
-    const bool has_folder = stat(fs::path(path).parent_path().c_str(), &folder) == 0;
-    const bool is_replaceable =
-        has_folder && (folder.st_mode & S_IWOTH) != 0 && (folder.st_mode & S_ISVTX) == 0;
-    const bool is_of_another = status.st_uid != geteuid() && geteuid() != 0;
-    if (error == 0 && ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 || is_of_another)) {
+    if (error != 0) return;
+    const std::string folder = folder_of_others(path);
+    if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 || is_of_another(status)) {
       untrusted = "others may write it: chmod go-w and chown it to yourself, or remove it";
-    } else if (error == 0 && is_replaceable) {
-      untrusted = "others may replace it: chmod o-w its folder";
+    } else if (!folder.empty()) {
+      untrusted = "others may remove it: chmod go-w " + folder + ", and chown that to yourself";
     }
   }
   ~LockedFile() {

@@ -195,9 +195,15 @@ TEST_F(VibrationMemories, AFileThatOthersMayWriteIsSaidAndNotTrusted) {
   fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write | fs::perms::others_write);
   expect_said("others may write it");
   fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write);
-  fs::permissions(parent, fs::perms::others_write, fs::perm_options::add);
-  expect_said("others may replace it");
-  fs::permissions(parent, fs::perms::others_write, fs::perm_options::remove);
+  for (const fs::path& above : {parent, parent.parent_path(), folder.path}) {
+    fs::permissions(above, fs::perms::others_write, fs::perm_options::add);
+    expect_said("others may remove it: chmod go-w " + fs::canonical(above).string());
+    fs::permissions(above, fs::perms::sticky_bit, fs::perm_options::add);
+    VibrationMemory sticky(file);
+    sticky.add(0, at(kHour));
+    EXPECT_EQ(sticky.error(), "") << above;
+    fs::permissions(above, fs::perms::owner_all);
+  }
   VibrationMemory trusted(file);
   trusted.add(0, at(kHour));
   EXPECT_EQ(trusted.error(), "");
