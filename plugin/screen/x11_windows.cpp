@@ -2,7 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/screen/x11_windows.h"
 
-#include <X11/Xatom.h>
 #include <X11/Xutil.h>
 #include <X11/cursorfont.h>
 #include <cstdio>
@@ -10,33 +9,29 @@
 #include <unistd.h>
 #include <utility>
 
+#include "plugin/screen/x11_property.h"
+
 namespace spidar::screen {
 namespace {
 
 template <typename Data>
 using FromX = std::unique_ptr<Data, int (*)(void*)>;
 
-struct Property {
-  FromX<unsigned char> data{nullptr, XFree};
-  unsigned long count = 0;
-};
-
 /// Empty when the window does not have it, or as another type.
-Property property_of(Display* display, Window window, const char* name, Atom type) {
+template <typename Item>
+std::vector<Item> property_of(Display* display, Window window, const char* name, const char* type) {
   constexpr long kMaxWords = 16'384;
-  Atom found = 0;
-  int bits = 0;
-  unsigned long count = 0, left = 0;
+  unsigned long left = 0;
   unsigned char* data = nullptr;
-  const Atom atom = XInternAtom(display, name, False);
-  Property property;
-  if (XGetWindowProperty(display, window, atom, 0, kMaxWords, False, type, &found, &bits, &count,
-                         &left, &data) != Success) {
-    return property;
+  Property found;
+  const Atom wanted = XInternAtom(display, type, False);
+  if (XGetWindowProperty(display, window, XInternAtom(display, name, False), 0, kMaxWords, False,
+                         wanted, &found.type, &found.bits, &found.count, &left, &data) != Success) {
+    return {};
   }
-  property.data.reset(data);
-  property.count = data ? count : 0;
-  return property;
+  const FromX<unsigned char> own(data, XFree);
+  found.data = data;
+  return items_of<Item>(found, wanted);
 }
 
 std::vector<Window> children_of(Display* display, Window window) {
@@ -48,7 +43,7 @@ std::vector<Window> children_of(Display* display, Window window) {
 }
 
 bool is_of_program(Display* display, Window window) {
-  return property_of(display, window, "WM_STATE", AnyPropertyType).count > 0;
+  return !property_of<long>(display, window, "WM_STATE", "WM_STATE").empty();
 }
 
 thread_local bool call_has_failed = false;
@@ -71,13 +66,12 @@ bool take_x11_failure() {
 }
 
 std::string title_of(Display* display, Window window) {
-  const Property title =
-      property_of(display, window, "_NET_WM_NAME", XInternAtom(display, "UTF8_STRING", False));
-  if (title.count > 0) return {reinterpret_cast<const char*>(title.data.get()), title.count};
-  char* name = nullptr;
-  if (!XFetchName(display, window, &name) || !name) return "";
-  const FromX<char> own(name, XFree);
-  return name;
+  for (const auto& [name, type] :
+       {std::pair("_NET_WM_NAME", "UTF8_STRING"), std::pair("WM_NAME", "STRING")}) {
+    const std::vector<char> title = property_of<char>(display, window, name, type);
+    if (!title.empty()) return text_of(title);
+  }
+  return "";
 }
 
 bool is_own(Display* display, Window window) {
@@ -89,10 +83,8 @@ bool is_own(Display* display, Window window) {
 
 std::vector<Window> program_windows(Display* display) {
   const Window root = DefaultRootWindow(display);
-  const Property listed = property_of(display, root, "_NET_CLIENT_LIST_STACKING", XA_WINDOW);
-  const auto* const windows = reinterpret_cast<const Window*>(listed.data.get());
-  if (listed.count > 0) return {windows, windows + listed.count};
-  return children_of(display, root);
+  const auto listed = property_of<Window>(display, root, "_NET_CLIENT_LIST_STACKING", "WINDOW");
+  return listed.empty() ? children_of(display, root) : listed;
 }
 
 Window program_window_in(Display* display, Window frame) {

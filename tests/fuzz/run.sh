@@ -3,7 +3,7 @@
 # Copyright 2026 the gst-spidar authors
 # Runs a fuzz target under libFuzzer with the address and undefined-behaviour sanitizers (apt-get install clang
 # libclang-rt-14-dev). What it finds is in build/found_TARGET/, what ends it in crash-*.
-#   tests/fuzz/run.sh feel|funscript|hjif|pose|profile|protocols|tension|window [SECONDS]   ten minutes by default
+#   tests/fuzz/run.sh feel|funscript|hjif|pose|profile|protocols|screen|tension|window [SECONDS]   ten minutes by default
 # Add valuable findings to the corpus: build/fuzz_pose -merge=1 tests/fuzz/corpus/pose build/found_pose
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."

@@ -2,6 +2,7 @@
 # Copyright 2026 the gst-spidar authors
 """An X server without a screen, for windows of players, and xdotool, which moves the mouse and presses keys there."""
 
+import ctypes
 import os
 import shutil
 import subprocess
@@ -40,6 +41,18 @@ class Screen:
 
 def xdotool(*words):
     return subprocess.run(["xdotool", *map(str, words)], capture_output=True, text=True, check=True).stdout
+
+
+def set_property(window, name, kind, bits, data):
+    """As any program may set it; `window` is a number as xdotool writes it, None the root."""
+    x11 = ctypes.CDLL("libX11.so.6")
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    x11.XDefaultRootWindow.restype = x11.XInternAtom.restype = ctypes.c_ulong
+    display = ctypes.c_void_p(x11.XOpenDisplay(None))
+    atoms = [ctypes.c_ulong(x11.XInternAtom(display, each.encode(), 0)) for each in (name, kind)]
+    of = ctypes.c_ulong(int(window) if window else x11.XDefaultRootWindow(display))
+    x11.XChangeProperty(display, of, *atoms, bits, 0, data, len(data) * 8 // bits)
+    x11.XCloseDisplay(display)
 
 
 def windows():

@@ -38,6 +38,8 @@ class Portal:
     def __init__(self, bus, pipewire="/nowhere", node=0, status=ALLOWED):
         self.pipewire, self.node, self.status = pipewire, node, status
         self.selected = []  # the options of each SelectSources
+        self.void = ""  # the method that refuses a token; "response": Start answers that it failed
+        self.lies = {}  # what it says to a method in place of an answer
         self.context = GLib.MainContext()
         self.loop = GLib.MainLoop(self.context)
         ready = threading.Event()
@@ -65,13 +67,17 @@ class Portal:
             results["session_handle"] = GLib.Variant("s", SESSION)
         elif method == "SelectSources":
             self.selected.append(options)
+            if self.void == method and "restore_token" in options:
+                return invocation.return_dbus_error("org.freedesktop.portal.Error.InvalidArgument", "no such token")
         else:
-            status = self.status
+            is_void = self.void == "response" and "restore_token" in self.selected[-1]
+            status = FAILED if is_void else self.status
             stream = (self.node, {"source_type": GLib.Variant("u", WINDOW)})
             results = {"streams": GLib.Variant("a(ua{sv})", [stream]),
                        "restore_token": GLib.Variant("s", f"token {len(self.selected)}")}
         invocation.return_value(GLib.Variant("(o)", (request,)))
-        return self.emit(request, "Request", "Response", GLib.Variant("(ua{sv})", (status, results)))
+        said = self.lies.get(method, GLib.Variant("(ua{sv})", (status, results)))
+        return self.emit(request, "Request", "Response", said)
 
     def open_remote(self, invocation):
         try:

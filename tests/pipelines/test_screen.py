@@ -13,7 +13,7 @@ import unittest
 import gi
 
 gi.require_version("Gst", "1.0")
-from gi.repository import Gst
+from gi.repository import GLib, Gst
 
 import bus_case
 import screen
@@ -144,6 +144,15 @@ class Windows(screen.ScreenCase, LookedAtCase):
         self.assertEqual(self.look("=Two").wait(), 1)
         self.expect_said('no window is called "Two"; there are "One"')
 
+    def test_properties_that_are_set_to_something_else_are_left_alone(self):
+        """By any program: a list of windows in items of 8 bits, and a title that is no UTF-8."""
+        film = self.show("Film")
+        screen.set_property(film.window, "_NET_WM_NAME", "UTF8_STRING", 8, "A ball \u00e9\0 and more".encode("latin-1"))
+        for bits in (8, 16):
+            screen.set_property(None, "_NET_CLIENT_LIST_STACKING", "WINDOW", bits, bytes(range(1, 9)))
+            self.assertEqual(self.look("=Two").wait(), 1)
+            self.expect_said('no window is called "Two"; there are "A ball \u00e9"')
+
     def test_the_film_is_found_among_what_moves_and_rests(self):
         """Everything in its picture moves, in another way than the patch in it."""
         self.run_in_folder("ffmpeg -v error -f lavfi -i color=gray:s=800x480:d=1,noise=alls=100,gblur=2 -frames:v 1 texture.png")
@@ -248,6 +257,31 @@ class Wayland(LookedAtCase):
                 self.expect_said("the desktop has ended the sharing")
                 self.assertEqual(felt.wait(), 0)
                 self.assertEqual(bus_case.read_trace(self.trace)[-1][2], 0)
+
+    def test_with_a_token_that_is_void_it_is_asked_anew(self):
+        portal = self.portal()
+        (self.state / "gst-spidar").mkdir(parents=True)
+        (self.state / "gst-spidar" / "screen-token").write_text("void")
+        for portal.void in ("SelectSources", "response"):
+            self.assertEqual(self.look().wait(), 1)
+            self.expect_said("the desktop's portal fails in OpenPipeWireRemote")  # it has allowed the rest
+            self.assertEqual([each.get("restore_token") for each in portal.selected[-2:]], ["void", None])
+
+    def test_a_portal_that_lies_is_refused(self):
+        def answer(**results):
+            return GLib.Variant("(ua{sv})", (0, results))
+        text, number = GLib.Variant("s", "no path"), GLib.Variant("u", 7)
+        portal = self.portal()
+        for lies, said in (({"CreateSession": GLib.Variant("(us)", (0, "x"))}, "could not share the screen"),
+                           ({"CreateSession": answer(session_handle=text)}, "names no session"),
+                           ({"CreateSession": answer(session_handle=number)}, "names no session"),
+                           ({"CreateSession": answer()}, "names no session"),
+                           ({"Start": answer(streams=text, restore_token=number)}, "the desktop shares nothing"),
+                           ({"Start": answer(streams=GLib.Variant("a(ua{sv})", []))}, "the desktop shares nothing")):
+            with self.subTest(lies):
+                portal.lies = lies
+                self.assertEqual(self.look().wait(), 1)
+                self.expect_said(said)
 
     def test_what_is_missing_is_said(self):
         def expect_refused(said, what="", **variables):
