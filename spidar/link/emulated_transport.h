@@ -82,7 +82,7 @@ class Transport final : public spidar::Transport {
     if (open_) throw DeviceError("emulated board: in use");
     open_ = true;
   }
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t) noexcept override {
     const LinkFault fault = fault_->load(std::memory_order_relaxed);
     // A device that was pulled out must be opened again.
@@ -113,15 +113,18 @@ class Transport final : public spidar::Transport {
     if (fault == LinkFault::kStall || fault == LinkFault::kTimeout) return fault;
     return board_->control(request) ? LinkFault::kNone : LinkFault::kStall;
   }
-  void recover() noexcept override {
-    std::array<uint8_t, 512> old{};
-    while (board_->reply(old) > 0) {
-    }
-  }
+  void recover() noexcept override { drop_unasked(0); }
   std::optional<LastWill> last_will() const override { return std::nullopt; }
   void close() noexcept override { open_ = false; }
 
  private:
+  Unasked drop_unasked(int64_t) noexcept override {
+    std::array<uint8_t, 512> old{};
+    Unasked result = Unasked::kNone;
+    while (board_->reply(old) > 0) result = Unasked::kDropped;
+    return result;
+  }
+
   const std::unique_ptr<Board> board_;
   const std::shared_ptr<const std::atomic<LinkFault>> fault_;
   bool open_ = false;

@@ -21,9 +21,13 @@ void WebSocketTransport::open() {
       DeviceErrorCode::kSettings);
 }
 
-Transfer WebSocketTransport::exchange(std::initializer_list<ByteView>, MutableBytes,
+Transfer WebSocketTransport::transfer(std::initializer_list<ByteView>, MutableBytes,
                                       int64_t) noexcept {
   return {LinkFault::kGone, 0};
+}
+
+Transport::Unasked WebSocketTransport::drop_unasked(int64_t) noexcept {
+  return Unasked::kNone;
 }
 
 void WebSocketTransport::recover() noexcept {}

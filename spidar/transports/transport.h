@@ -3,6 +3,7 @@
 /// Interface for sending bytes to a board and receiving its reply.
 #pragma once
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <initializer_list>
@@ -42,8 +43,23 @@ class Transport {
   /// sends. Blocks until it is done or until the deadline (CLOCK_MONOTONIC), and then returns
   /// kTimeout. Returns kShort if fewer bytes arrive than `reply` can hold. Whatever the result, the
   /// packets may have arrived.
-  virtual Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                            int64_t deadline_ns) noexcept = 0;
+  ///
+  /// The newest state counts: what was sent before the packets that it should answer is dropped.
+  /// Where that has no end, or happens in more exchanges than not, kMostUnasked times, nobody knows
+  /// how old an answer is, and the result is kBabble.
+  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept {
+    if (packets.size() == 0 || reply.size == 0) return transfer(packets, reply, deadline_ns);
+    const int64_t now_ns = monotonic_now_ns();
+    const Unasked unasked = drop_unasked(now_ns + (deadline_ns - now_ns) / 2);
+    unasked_ = std::clamp(unasked_ + (unasked == Unasked::kNone ? -1 : 1), 0, kMostUnasked);
+    Transfer result = transfer(packets, reply, deadline_ns);
+    const bool answered = result.fault == LinkFault::kNone || result.fault == LinkFault::kShort;
+    if (answered && (unasked == Unasked::kEndless || unasked_ == kMostUnasked)) {
+      result.fault = LinkFault::kBabble;
+    }
+    return result;
+  }
 
   /// Sends a vendor request without data; kRefused if there is no such pipe. Blocks as exchange()
   /// does.
@@ -64,6 +80,22 @@ class Transport {
 
   /// May be called twice.
   virtual void close() noexcept = 0;
+
+  /// A second of exchanges. A few answers too many are no reason to stop, as each is dropped.
+  static constexpr int kMostUnasked = 1000;
+
+ protected:
+  enum class Unasked { kNone, kDropped, kEndless };
+
+  /// As exchange(), of which it is the part that differs between connections.
+  virtual Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                            int64_t deadline_ns) noexcept = 0;
+  /// Drops what has arrived and answers nothing, until there is no more of it (kDropped) or until
+  /// `until_ns` (kEndless). A USB board keeps such answers itself, a few of them at most.
+  virtual Unasked drop_unasked(int64_t) noexcept { return Unasked::kNone; }
+
+ private:
+  int unasked_ = 0;  ///< exchanges before which something was dropped, less the others
 };
 
 /// Locks an open device file for this file descriptor until it is closed. Waits up to

@@ -171,13 +171,9 @@ LinkFault TtyTransport::wait_for(short events, int64_t deadline_ns) noexcept {
   }
 }
 
-Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+Transfer TtyTransport::transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                                 int64_t deadline_ns) noexcept {
   if (file_ < 0) return {LinkFault::kGone, 0};
-  // Unexpected bytes would be mistaken for the reply.
-  int unread = 0;
-  ioctl(file_, FIONREAD, &unread);
-  if (unread > 0) ioctl(file_, TCFLSH, TCIFLUSH);
   for (ByteView packet : packets) {
     while (packet.size > 0) {
       const ssize_t sent = write(file_, packet.data, packet.size);
@@ -201,7 +197,15 @@ Transfer TtyTransport::exchange(std::initializer_list<ByteView> packets, Mutable
     if (got > 0) received += static_cast<size_t>(got);
     if (got == 0) return {LinkFault::kGone, received};
   }
-  return {unread > 0 ? LinkFault::kBabble : LinkFault::kNone, received};
+  return {LinkFault::kNone, received};
+}
+
+Transport::Unasked TtyTransport::drop_unasked(int64_t) noexcept {
+  int unread = 0;
+  ioctl(file_, FIONREAD, &unread);
+  if (unread == 0) return Unasked::kNone;
+  ioctl(file_, TCFLSH, TCIFLUSH);
+  return Unasked::kDropped;
 }
 
 void TtyTransport::recover() noexcept {

@@ -33,14 +33,15 @@ class TtyTransport final : public Transport {
   ~TtyTransport() override;
 
   void open() override;
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                    int64_t deadline_ns) noexcept override;
   /// Discards received data and data that is not yet sent.
   void recover() noexcept override;
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;
 
  private:
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  Unasked drop_unasked(int64_t until_ns) noexcept override;
   [[noreturn]] void fail(const std::string& what, SourceLocation location = SourceLocation::here());
   LinkFault wait_for(short events, int64_t deadline_ns) noexcept;
 

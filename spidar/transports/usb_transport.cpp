@@ -318,7 +318,7 @@ void UsbTransport::finish(int64_t deadline_ns) noexcept {
   }
 }
 
-Transfer UsbTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+Transfer UsbTransport::transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                                 int64_t deadline_ns) noexcept {
   if (!handle_) return {LinkFault::kGone, 0};
   if (packets.size() > kMaxPackets || reply.size > kMaxLength) return {LinkFault::kWrongReply, 0};

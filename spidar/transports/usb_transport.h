@@ -69,8 +69,6 @@ class UsbTransport final : public Transport {
   void select(const UsbDeviceInfo& device) { device_ = device; }
 
   void open() override;
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                    int64_t deadline_ns) noexcept override;
   LinkFault control(const VendorRequest& request, int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   std::string where() const override { return "at " + device_.path + ": "; }
@@ -78,6 +76,8 @@ class UsbTransport final : public Transport {
   void close() noexcept override;
 
  private:
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
   static constexpr size_t kMaxPackets = 2;
   static constexpr size_t kMaxLength = 512;
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <csignal>
 #include <libwebsockets.h>
+#include <sys/ioctl.h>
 #include <utility>
 #include <vector>
 
@@ -53,16 +54,15 @@ class WebSocketTransport::Connection {
   }
   /// Waits for an answer; false if there is none.
   bool receive(int64_t deadline_ns) {
-    if (!run([this] { return complete_ || gone(); }, deadline_ns) || !complete_) return false;
-    complete_ = false;
-    answered_ = true;
-    return true;
+    return run([this] { return complete_ || gone(); }, deadline_ns) && finish();
   }
+  /// Reads what has arrived, until there is no more of it.
+  Unasked drop_unasked(int64_t until_ns);
   void send(std::initializer_list<ByteView> packets) noexcept;
 
   bool gone() const noexcept { return state_ == State::kGone; }
   /// The last message has been answered.
-  bool answered() const noexcept { return answered_; }
+  bool answered() const noexcept { return pending_ == 0 && !asked_; }
   const std::vector<uint8_t>& answer() const noexcept { return incoming_; }
   int file() const noexcept { return lws_get_socket_fd(socket_); }
   const std::string& error() const noexcept { return error_; }
@@ -73,6 +73,8 @@ class WebSocketTransport::Connection {
   static int handle(lws* socket, lws_callback_reasons reason, void*, void* in, size_t length);
   void take(const uint8_t* bytes, size_t length);
   void write();
+  bool finish() noexcept;
+  bool has_unread() const noexcept;
   template <typename Done>
   bool run(const Done& done, int64_t deadline_ns);
 
@@ -84,9 +86,11 @@ class WebSocketTransport::Connection {
   State state_ = State::kConnecting;
   std::string error_;
   std::array<uint8_t, LWS_PRE + kLongest> outgoing_{};
-  size_t pending_ = 0;  ///< length of the message that is to be written
-  bool answered_ = false;
-  bool complete_ = false;
+  size_t pending_ = 0;     ///< length of the message that is to be written
+  bool asked_ = true;      ///< an answer is due; the first one is the greeting
+  bool counts_ = false;    ///< what arrives is an answer
+  bool complete_ = false;  ///< an answer has arrived
+  bool surplus_ = false;   ///< something else has
   std::vector<uint8_t> incoming_;
 };
 
@@ -144,10 +148,35 @@ int WebSocketTransport::Connection::handle(lws* socket, lws_callback_reasons rea
 }
 
 void WebSocketTransport::Connection::take(const uint8_t* bytes, size_t length) {
-  if (complete_ || lws_is_first_fragment(socket_)) incoming_.clear();
-  complete_ = false;
+  if (lws_is_first_fragment(socket_)) {
+    surplus_ = surplus_ || complete_ || !asked_;
+    counts_ = asked_;
+    complete_ = false;
+    incoming_.clear();
+  }
   if (incoming_.size() + length <= kMax) incoming_.insert(incoming_.end(), bytes, bytes + length);
-  complete_ = lws_is_final_fragment(socket_) != 0;
+  complete_ = counts_ && lws_is_final_fragment(socket_) != 0;
+}
+
+/// Whether there was an answer.
+bool WebSocketTransport::Connection::finish() noexcept {
+  if (complete_) asked_ = false;
+  return std::exchange(complete_, false);
+}
+
+bool WebSocketTransport::Connection::has_unread() const noexcept {
+  int unread = 0;
+  return !gone() && ioctl(file(), FIONREAD, &unread) == 0 && unread > 0;
+}
+
+Transport::Unasked WebSocketTransport::Connection::drop_unasked(int64_t until_ns) {
+  // −1: it takes what is there, and does not wait.
+  while (has_unread() && monotonic_now_ns() < until_ns) {
+    if (lws_service(context_, -1) < 0) state_ = State::kGone;
+  }
+  finish();
+  if (has_unread()) return Unasked::kEndless;
+  return std::exchange(surplus_, false) ? Unasked::kDropped : Unasked::kNone;
 }
 
 void WebSocketTransport::Connection::write() {
@@ -155,6 +184,7 @@ void WebSocketTransport::Connection::write() {
   const int written = lws_write(socket_, outgoing_.data() + LWS_PRE, pending_, LWS_WRITE_TEXT);
   if (written < static_cast<int>(pending_)) state_ = State::kGone;
   pending_ = 0;
+  asked_ = true;
 }
 
 void WebSocketTransport::Connection::send(std::initializer_list<ByteView> packets) noexcept {
@@ -164,8 +194,6 @@ void WebSocketTransport::Connection::send(std::initializer_list<ByteView> packet
     std::copy_n(packet.data, length, outgoing_.data() + LWS_PRE + pending_);
     pending_ += length;
   }
-  answered_ = false;
-  complete_ = false;
   lws_callback_on_writable(socket_);
 }
 
@@ -209,7 +237,7 @@ void WebSocketTransport::open() {
   connection_ = std::move(connection);
 }
 
-Transfer WebSocketTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+Transfer WebSocketTransport::transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                                       int64_t deadline_ns) noexcept {
   if (!connection_ || connection_->gone()) return {LinkFault::kGone, 0};
   if (!connection_->answered()) connection_->receive(deadline_ns);
@@ -225,6 +253,10 @@ Transfer WebSocketTransport::exchange(std::initializer_list<ByteView> packets, M
   std::copy_n(answer.begin(), length, reply.data);
   if (answer.size() > reply.size) return {LinkFault::kBabble, length};
   return {length < reply.size ? LinkFault::kShort : LinkFault::kNone, length};
+}
+
+Transport::Unasked WebSocketTransport::drop_unasked(int64_t until_ns) noexcept {
+  return connection_ ? connection_->drop_unasked(until_ns) : Unasked::kNone;
 }
 
 void WebSocketTransport::recover() noexcept {

@@ -36,7 +36,7 @@ inline bool is_listening(uint16_t port) {
 ///
 /// A message is sent only when the previous one has been answered. After a timeout the next
 /// exchange waits for that answer first, and drops it, so that messages never queue up in the
-/// service.
+/// service. A message counts as the answer if it has begun to arrive after ours was written.
 class WebSocketTransport final : public Transport {
  public:
   /// `name` is for messages, `cure` what to do when nothing answers at the port.
@@ -45,13 +45,14 @@ class WebSocketTransport final : public Transport {
 
   /// Waits for the message with which the service greets, and drops it.
   void open() override;
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                    int64_t deadline_ns) noexcept override;
   void recover() noexcept override;
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;
 
  private:
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
+  Unasked drop_unasked(int64_t until_ns) noexcept override;
   class Connection;
 
   const std::string name_;

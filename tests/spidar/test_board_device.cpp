@@ -93,7 +93,7 @@ class HeldTransport final : public Transport {
  public:
   explicit HeldTransport(std::unique_ptr<Transport> real) : real_(std::move(real)) {}
   void open() override { real_->open(); }
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override {
     std::unique_lock<std::mutex> lock(mutex_);
     free_.wait(lock, [this] { return !held_; });

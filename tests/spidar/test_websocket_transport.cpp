@@ -15,13 +15,19 @@ class WebSockets : public testing::Test {
  protected:
   Transfer ask(int64_t patience_ns) {
     const size_t length = inverse3::encode_query(query);
-    return transport.exchange({{query.data(), length}}, {answer.data(), answer.size()},
-                              monotonic_now_ns() + patience_ns);
+    const Transfer transfer = transport.exchange(
+        {{query.data(), length}}, {answer.data(), answer.size()}, monotonic_now_ns() + patience_ns);
+    end = answer.data() + transfer.received;
+    return transfer;
   }
+
+  /// Of the state in the last answer.
+  int number() const { return nlohmann::json::parse(answer.data(), end)["number"]; }
 
   InverseService service;
   std::array<uint8_t, inverse3::kCommandSize> query{};
   std::array<uint8_t, 4096> answer{};
+  const uint8_t* end = nullptr;
   WebSocketTransport transport{"inverse3", static_cast<uint16_t>(service.port()), "start it"};
 };
 
@@ -33,6 +39,52 @@ TEST_F(WebSockets, AConnectionThatEndsWithAnAnswerIsGone) {
   ASSERT_EQ(ask(kSecond_ns / 100).fault, LinkFault::kTimeout);
   service.break_protocol();
   EXPECT_EQ(ask(10 * kSecond_ns).fault, LinkFault::kGone);
+}
+
+/// Of two answers, the second may arrive after the next message was written, and no later: the
+/// first to that follows it. So no state is older than the exchange before.
+TEST_F(WebSockets, WhatANewerStateHasReplacedIsDropped) {
+  transport.open();
+  service.answers = 2;
+  int before = 0;
+  for (int i = 0; i < 100; ++i) {
+    const int now = service.states;
+    ASSERT_EQ(ask(10 * kSecond_ns).fault, LinkFault::kShort);
+    EXPECT_GT(number(), std::exchange(before, now));
+  }
+}
+
+/// The answer comes after them, and after 300 exchanges without the rule.
+TEST_F(WebSockets, ABurstIsDroppedAndNoFault) {
+  transport.open();
+  constexpr int kStates = 300;
+  service.burst(kStates);
+  while (service.states <= kStates) std::this_thread::yield();
+  int asked = 0;
+  do {
+    ASSERT_EQ(ask(10 * kSecond_ns).fault, LinkFault::kShort);
+    ++asked;
+  } while (number() <= kStates + 1);  // and the greeting
+  EXPECT_LT(asked, kStates / 2);
+}
+
+/// Nobody knows what it answers.
+TEST_F(WebSockets, AServiceThatSendsMoreThanItIsAskedForIsNamed) {
+  transport.open();
+  service.answers = 2;
+  const auto ask_until = [&](LinkFault fault) {
+    int asked = 1;
+    for (; ask(10 * kSecond_ns).fault != fault; ++asked) {
+      // Both answers to each message have been sent, so that the next exchange finds one of them.
+      while (service.sent < service.messages * service.answers) std::this_thread::yield();
+    }
+    return asked;
+  };
+  EXPECT_GE(ask_until(LinkFault::kBabble), Transport::kMostUnasked);
+  transport.open();  // which does not help
+  EXPECT_LT(ask_until(LinkFault::kBabble), Transport::kMostUnasked);
+  service.answers = 1;
+  EXPECT_LT(ask_until(LinkFault::kShort), Transport::kMostUnasked);
 }
 
 /// In a container, a process may have a billion files.

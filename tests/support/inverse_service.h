@@ -81,6 +81,12 @@ class InverseService {
     ignored_ = key;
   }
 
+  /// Sends this number of states that nobody has asked for.
+  void burst(int number) {
+    unasked_ = number;
+    lws_cancel_service(context_);
+  }
+
   /// Sends a state that nobody asked for, and with it a frame that RFC 6455 forbids.
   void break_protocol() {
     breaks_ = true;
@@ -91,7 +97,10 @@ class InverseService {
   std::atomic<bool> mute{false};    ///< takes messages, and answers none
   std::atomic<int> held{0};         ///< number of messages without an answer that it did not answer
   std::atomic<bool> broken{false};  ///< answers no JSON
-  std::atomic<int> clients{0};      ///< connections so far
+  std::atomic<int> answers{1};      ///< to each message
+  std::atomic<int> states{0};       ///< that it has made so far; each has its number
+  std::atomic<int> sent{0};
+  std::atomic<int> clients{0};  ///< connections so far
   std::atomic<int> messages{0};
   std::atomic<int64_t> let_go_ns{0};  ///< when the first force became zero
 
@@ -105,8 +114,7 @@ class InverseService {
     if (reason == LWS_CALLBACK_RECEIVE)
       self->take(socket, *due, static_cast<const char*>(in), length);
     if (reason == LWS_CALLBACK_SERVER_WRITEABLE) self->write(socket, *due);
-    if (reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED && self->breaks_.exchange(false))
-      self->write_forbidden();
+    if (reason == LWS_CALLBACK_EVENT_WAIT_CANCELLED) self->write_unasked();
     return 0;
   }
 
@@ -127,7 +135,7 @@ class InverseService {
       ++held;
       return;
     }
-    ++due;
+    due += answers;
     lws_callback_on_writable(socket);
   }
 
@@ -151,7 +159,8 @@ class InverseService {
   std::string text() {
     if (broken) return "<html>no JSON</html>";
     const std::lock_guard lock(mutex_);
-    nlohmann::json all = {{"session_id", 1}, {"inverse3", nlohmann::json::array()}};
+    nlohmann::json all = {
+        {"session_id", 1}, {"number", ++states}, {"inverse3", nlohmann::json::array()}};
     for (const inverse3::State& device : devices_) {
       std::array<uint8_t, inverse3::kCommandSize> bytes{};
       const size_t length = inverse3::encode_state(device, bytes);
@@ -168,15 +177,21 @@ class InverseService {
     const std::string answer = std::string(LWS_PRE, '\0') + text();
     std::vector<uint8_t> bytes(answer.begin(), answer.end());
     lws_write(socket, bytes.data() + LWS_PRE, bytes.size() - LWS_PRE, LWS_WRITE_TEXT);
+    ++sent;
     if (due > 0) lws_callback_on_writable(socket);
   }
 
-  /// Both frames at once, so that they arrive together.
-  void write_forbidden() {
-    const std::string state = text();
-    std::string frames = "\x81\x7E";  // the last of a text, whose length follows in two bytes
-    frames += {static_cast<char>(state.size() >> 8), static_cast<char>(state.size() & 0xFF)};
-    frames += state + '\x83' + '\0';  // no kind of frame has the number 3
+  /// All frames at once, so that they arrive together.
+  void write_unasked() {
+    const bool breaks = breaks_.exchange(false);
+    std::string frames;
+    for (int left = unasked_.exchange(0) + (breaks ? 1 : 0); left > 0; --left) {
+      const std::string state = text();
+      frames += "\x81\x7E";  // the last of a text, whose length follows in two bytes
+      frames += {static_cast<char>(state.size() >> 8), static_cast<char>(state.size() & 0xFF)};
+      frames += state;
+    }
+    if (breaks) frames += {'\x83', '\0'};  // no kind of frame has the number 3
     send(lws_get_socket_fd(newest_), frames.data(), frames.size(), MSG_NOSIGNAL);
   }
 
@@ -186,6 +201,7 @@ class InverseService {
   int port_ = 0;
   std::string ignored_;
   std::atomic<bool> stop_{false}, breaks_{false};
+  std::atomic<int> unasked_{0};
   lws* newest_ = nullptr;
   std::string incoming_;
   std::mutex mutex_;

@@ -219,7 +219,7 @@ LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& rece
   return written == static_cast<ssize_t>(packet.size) ? LinkFault::kNone : LinkFault::kShort;
 }
 
-Transfer EvdevTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+Transfer EvdevTransport::transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                                   int64_t) noexcept {
   if (file_ < 0) return {LinkFault::kGone, 0};
   size_t received = 0;

@@ -26,14 +26,14 @@ class EvdevTransport final : public Transport {
   ~EvdevTransport() override;
 
   void open() override;
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                    int64_t deadline_ns) noexcept override;
   /// Does nothing, because calls are independent of each other.
   void recover() noexcept override {}
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;
 
  private:
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
   [[noreturn]] void fail(const std::string& path, const std::string& what,
                          SourceLocation location = SourceLocation::here());
   std::string find();

@@ -30,7 +30,7 @@ void SoundTransport::open() {
       DeviceErrorCode::kSettings);
 }
 
-Transfer SoundTransport::exchange(std::initializer_list<ByteView>, MutableBytes, int64_t) noexcept {
+Transfer SoundTransport::transfer(std::initializer_list<ByteView>, MutableBytes, int64_t) noexcept {
   return {LinkFault::kGone, 0};
 }
 

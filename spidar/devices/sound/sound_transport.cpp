@@ -227,7 +227,7 @@ void SoundTransport::open() {
   });
 }
 
-Transfer SoundTransport::exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
+Transfer SoundTransport::transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                                   int64_t) noexcept {
   const LinkFault fault = fault_;
   if (fault != LinkFault::kNone) return {fault, 0};

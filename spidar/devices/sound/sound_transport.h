@@ -37,13 +37,13 @@ class SoundTransport final : public Transport {
   ~SoundTransport() override;
 
   void open() override;
-  Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
-                    int64_t deadline_ns) noexcept override;
   void recover() noexcept override {}
   std::optional<LastWill> last_will() const override { return std::nullopt; }
   void close() noexcept override;
 
  private:
+  Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
+                    int64_t deadline_ns) noexcept override;
   class Pcm;
   struct Fed {
     sound::Levels levels;
