@@ -17,6 +17,8 @@ constexpr const char* kPrefix = "org.mpris.MediaPlayer2.";
 constexpr const char* kPath = "/org/mpris/MediaPlayer2";
 constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
 constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
+/// The track that players without a list of tracks name. SetPosition is for those of a list.
+constexpr const char* kNoTrack = "/org/mpris/MediaPlayer2/TrackList/NoTrack";
 constexpr const char* kBus = "org.freedesktop.DBus";
 /// More than a person has; each is asked once a second.
 constexpr size_t kMaxPlayers = 64;
@@ -189,7 +191,7 @@ void Player::toggle() {
 
 void Player::seek(int64_t position_ns, int64_t distance_ns) {
   const std::string& track = state_->track;
-  if (g_variant_is_object_path(track.c_str())) {
+  if (g_variant_is_object_path(track.c_str()) && track != kNoTrack) {
     order("SetPosition", g_variant_new("(ox)", track.c_str(), position_ns / 1000));
   } else {
     order("Seek", g_variant_new("(x)", distance_ns / 1000));

@@ -468,6 +468,10 @@ class Seen(FollowCase):
         self.assertFalse(self.path("opened").exists())
 
 
+# What a player without a list of tracks names (MPRIS); it ignores SetPosition, which is for a track of that list.
+NO_TRACK = "/org/mpris/MediaPlayer2/TrackList/NoTrack"
+
+
 class Obedient(MockPlayer):
     """Does what it is asked to."""
 
@@ -490,7 +494,7 @@ class Obedient(MockPlayer):
         invocation.return_value(None)
         if method == "PlayPause":
             self.change("Paused" if self.status == "Playing" else "Playing")
-        elif method == "SetPosition":
+        elif method == "SetPosition" and parameters.unpack()[0] == self.track != NO_TRACK:
             self.change(position_s=1e-6 * parameters.unpack()[1])
         elif method == "Seek":
             self.change(position_s=self.position_s() + 1e-6 * parameters.unpack()[0])
@@ -521,7 +525,7 @@ class Controlled(screen.ScreenCase, FollowCase):
             while player.status != status:
                 self.press_p()
         self.assertEqual(set(player.asked), {("PlayPause",)})
-        for player.track, method in (("/film/1", "SetPosition"), ("", "Seek")):
+        for player.track, method in (("", "Seek"), ("/film/1", "SetPosition"), (NO_TRACK, "Seek")):
             player.change(position_s=2)
             while player.asked[-1][0] != method:  # a window on a busy machine may not see a click
                 self.click_on_timeline()
