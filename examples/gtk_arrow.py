@@ -21,7 +21,7 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl+C ends it
 Gst.init(None)
 name = sys.argv[1]
 player = Gst.ElementFactory.make("playbin")
-player.set_property("uri", name if Gst.uri_is_valid(name) else Gst.filename_to_uri(name))
+player.set_property("uri", name if "://" in name else Gst.filename_to_uri(name))
 player.set_property("video-filter", Gst.parse_launch("spidarmotion"))
 waiting = deque()  # structures of the messages of frames that are not shown yet
 app = Gtk.Application()

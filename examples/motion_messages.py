@@ -20,7 +20,7 @@ Gst.init(None)
 headless = "--headless" in sys.argv
 name = sys.argv[-1]
 player = Gst.ElementFactory.make("playbin")
-player.set_property("uri", name if Gst.uri_is_valid(name) else Gst.filename_to_uri(name))
+player.set_property("uri", name if "://" in name else Gst.filename_to_uri(name))
 player.set_property("video-filter", Gst.parse_launch("spidarmotion"))
 if headless:
     for sink in "video-sink", "audio-sink":

@@ -29,7 +29,7 @@ sound = Gst.parse_launch("fakesink sync=true" if headless else "autoaudiosink")
 player = Gst.ElementFactory.make("playbin")
 for key, value in {"video-filter": motion, "video-sink": screen, "audio-sink": sound}.items():
     player.set_property(key, value)
-player.set_property("uri", names[0] if Gst.uri_is_valid(names[0]) else Gst.filename_to_uri(names[0]))
+player.set_property("uri", names[0] if "://" in names[0] else Gst.filename_to_uri(names[0]))
 main = GLib.MainLoop()
 rate, playing, again, failed = 1.0, True, False, False
 

@@ -91,8 +91,9 @@ GstElement* make_player(const std::string& film, GstElement* filter, const Scree
   guint flags = 0;
   g_object_get(player, "flags", &flags, nullptr);
   // Frames in graphics memory would bypass the filter.
-  char* const uri = gst_uri_is_valid(film.c_str()) ? g_strdup(film.c_str())
-                                                   : gst_filename_to_uri(film.c_str(), nullptr);
+  char* const uri = film.find("://") != std::string::npos
+                        ? g_strdup(film.c_str())
+                        : gst_filename_to_uri(film.c_str(), nullptr);
   g_object_set(player, "uri", uri, "video-filter", filter, "video-sink", screen.element, "flags",
                flags | kForceFilters, nullptr);
   g_free(uri);

@@ -5,131 +5,161 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
+#include <libxml/HTMLparser.h>
+#include <libxml/xpath.h>
 #include <map>
-#include <sstream>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include <gst/gst.h>
 
 #include "plugin/films/film_list.h"
-#include "spidar/whole_file.h"
+#include "plugin/films/text_lines.h"
+#include "plugin/follow/film_plan.h"
+#include "plugin/gobject/ref.h"
 
 namespace spidar {
 namespace {
 
 namespace fs = std::filesystem;
+using Names = std::vector<std::string>;
 
-/// 10,000 films with long names have less.
-constexpr size_t kMax_bytes = size_t{4} << 20;
-
-bool ends_as(const std::string& path, const char* end) {
-  const std::string extension = fs::path(path).extension().string();
-  return g_ascii_strcasecmp(extension.c_str(), end) == 0;
+bool ends_as(const std::string& path, const std::set<std::string>& ends) {
+  const std::string end = fs::path(path).extension().string();
+  return ends.count(taken(g_ascii_strdown(end.c_str(), -1))) > 0;
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) {
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (!line.empty()) lines.push_back(line);
+bool is_xml(const std::string& path) {
+  return ends_as(path, {".xspf", ".asx", ".wax", ".wvx", ".wpl"});
+}
+
+bool is_there(const fs::path& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+/// What is not in UTF-8 is by an old Windows.
+std::string utf8_of(const std::string& text) {
+  if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
+  return taken(g_convert_with_fallback(text.c_str(), -1, "UTF-8", "WINDOWS-1252", nullptr, nullptr,
+                                       nullptr, nullptr));
+}
+
+/// Lines that are no comment, or in PLS what "File1 =" and so on name, by their numbers; nothing
+/// for HLS, which is one film.
+std::optional<Names> named_in_lines(const std::string& path) {
+  std::map<size_t, std::string> names;
+  bool is_pls = ends_as(path, {".pls"});
+  TextLines lines(path);
+  while (const auto line = lines.next()) {
+    const std::string text = taken(g_strstrip(g_strdup(line->c_str())));
+    const size_t end = text.find('=');
+    if (text.rfind("#EXT-X-", 0) == 0) return std::nullopt;
+    if (g_ascii_strcasecmp(text.c_str(), "[playlist]") == 0) {
+      is_pls = true;
+    } else if (!is_pls && !text.empty() && text[0] != '#') {
+      names.emplace(names.size(), *line);
+    } else if (end != std::string::npos && g_ascii_strncasecmp(text.c_str(), "file", 4) == 0) {
+      names[std::strtoul(text.c_str() + 4, nullptr, 10)] = text.substr(end + 1);
+    }
   }
-  return lines;
+  Names in_order;
+  for (auto& [number, name] : names) in_order.push_back(std::move(name));
+  return in_order;
 }
 
-/// Lines that are no comment.
-std::vector<std::string> named_in_m3u(const std::string& text) {
-  std::vector<std::string> names = lines_of(text);
-  names.erase(std::remove_if(names.begin(), names.end(),
-                             [](const std::string& line) { return line.front() == '#'; }),
-              names.end());
+/// Of XSPF, ASX and WPL. Few of the latter two are correct XML, so they are read as HTML is.
+Names named_in_xml(const std::string& path) {
+  std::string text;
+  TextLines lines(path);
+  while (const auto line = lines.next()) text += utf8_of(*line) + '\n';
+  xmlDoc* const document = htmlReadMemory(
+      text.data(), static_cast<int>(text.size()), nullptr, "UTF-8",
+      HTML_PARSE_RECOVER | HTML_PARSE_NONET | HTML_PARSE_NOERROR | HTML_PARSE_NOWARNING);
+  xmlXPathContext* const context = xmlXPathNewContext(document);
+  // The location of a whole playlist is that of its own file.
+  xmlXPathObject* const found = xmlXPathEvalExpression(
+      BAD_CAST "//location[not(parent::playlist)] | //ref/@href | //entryref/@href | //media/@src",
+      context);
+  Names names;
+  for (int i = 0; found && i < xmlXPathNodeSetGetLength(found->nodesetval); ++i) {
+    xmlChar* const name = xmlNodeGetContent(found->nodesetval->nodeTab[i]);
+    names.emplace_back(reinterpret_cast<char*>(name));
+    xmlFree(name);
+  }
+  xmlXPathFreeObject(found);
+  xmlXPathFreeContext(context);
+  xmlFreeDoc(document);
   return names;
 }
 
-/// File1=NAME and so on, by their numbers.
-std::vector<std::string> named_in_pls(const std::string& text) {
-  std::map<long, std::string> by_number;
-  for (const std::string& line : lines_of(text)) {
-    const size_t end = line.find('=');
-    if (end == std::string::npos || g_ascii_strncasecmp(line.c_str(), "file", 4) != 0) continue;
-    by_number[std::strtol(line.c_str() + 4, nullptr, 10)] = line.substr(end + 1);
+/// The file that a playlist in `folder` means by `name`: as it stands, without blanks around it,
+/// with slashes, and with what "%20" and so on stand for; or else its URI, or its name there.
+std::string named_file(const fs::path& folder, const std::string& name) {
+  const std::string bare = taken(g_strstrip(g_strdup(utf8_of(name).c_str())));
+  if (bare.empty()) return {};
+  const std::string slashed = taken(g_strdelimit(g_strdup(bare.c_str()), "\\", '/'));
+  for (const std::string& written : {name, bare, slashed}) {
+    const std::string decoded = taken(g_uri_unescape_string(written.c_str(), nullptr));
+    if (is_there(folder / written)) return (folder / written).string();
+    if (!decoded.empty() && is_there(folder / decoded)) return (folder / decoded).string();
   }
-  std::vector<std::string> names;
-  for (auto& [number, name] : by_number) names.push_back(std::move(name));
-  return names;
+  if (bare.find("://") == std::string::npos) return (folder / bare).string();
+  const std::string path = follow::path_of(bare);
+  return is_there(path) ? path : bare;
 }
 
-/// URIs, which may be relative to that of the playlist, in elements `location` of XML.
-std::vector<std::string> named_in_xspf(const std::string& text, const std::string& path) {
-  GMarkupParser parser{};
-  parser.text = [](GMarkupParseContext* context, const gchar* words, gsize size, gpointer found,
-                   GError**) {
-    if (g_strcmp0(g_markup_parse_context_get_element(context), "location") != 0) return;
-    g_autofree gchar* word = g_strndup(words, size);
-    static_cast<std::vector<std::string>*>(found)->emplace_back(g_strstrip(word));
-  };
-  std::vector<std::string> names;
-  GMarkupParseContext* const context =
-      g_markup_parse_context_new(&parser, G_MARKUP_DEFAULT_FLAGS, &names, nullptr);
-  g_markup_parse_context_parse(context, text.data(), static_cast<gssize>(text.size()), nullptr);
-  g_markup_parse_context_free(context);
-  g_autofree gchar* base = gst_filename_to_uri(path.c_str(), nullptr);
-  for (std::string& name : names) {
-    g_autofree gchar* whole =
-        base ? g_uri_resolve_relative(base, name.c_str(), G_URI_FLAGS_ENCODED, nullptr) : nullptr;
-    if (whole) name = whole;
-  }
-  return names;
-}
-
-std::vector<std::string> read_playlist(const std::string& path) {
-  std::string text = read_regular_file(path, kMax_bytes);
-  constexpr const char* kByteOrderMark = "\xef\xbb\xbf";
-  if (text.rfind(kByteOrderMark, 0) == 0) text.erase(0, 3);
-  if (text.find("#EXT-X-") != std::string::npos) return {path};  // HLS
-  std::vector<std::string> names = ends_as(path, ".pls")    ? named_in_pls(text)
-                                   : ends_as(path, ".xspf") ? named_in_xspf(text, path)
-                                                            : named_in_m3u(text);
-  if (names.empty()) throw std::runtime_error(path + ": this playlist names no film");
-  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
-  for (std::string& name : names) {
-    if (!gst_uri_is_valid(name.c_str())) name = (folder / name).string();
-  }
-  return names;
-}
-
-std::vector<std::string> read_folder(const std::string& path) {
+Names read_folder(const std::string& path) {
   std::string left_out;
-  std::vector<std::pair<std::string, std::string>> by_key;
+  std::set<std::pair<std::string, std::string>> by_key;
   for (const ListedFilm& film : list_films({path}, left_out)) {
-    g_autofree gchar* shown = g_filename_display_name(film.path.c_str());
-    g_autofree gchar* key = g_utf8_collate_key_for_filename(shown, -1);
-    by_key.emplace_back(key, film.path);
+    const std::string shown = taken(g_filename_display_name(film.path.c_str()));
+    by_key.emplace(taken(g_utf8_collate_key_for_filename(shown.c_str(), -1)), film.path);
   }
-  std::sort(by_key.begin(), by_key.end());
-  std::vector<std::string> films;
-  for (auto& [key, film] : by_key) films.push_back(std::move(film));
+  Names films;
+  for (const auto& [key, film] : by_key) films.push_back(film);
   return films;
+}
+
+/// Nothing for HLS.
+std::optional<Names> read_playlist(const std::string& path) {
+  std::optional<Names> names = is_xml(path) ? named_in_xml(path) : named_in_lines(path);
+  const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
+  for (size_t i = 0; names && i < names->size(); ++i) (*names)[i] = named_file(folder, (*names)[i]);
+  return names;
+}
+
+/// Adds what `word` stands for. Each playlist is read once, so that none goes on for ever.
+void add_films(const std::string& word, std::set<fs::path>& read, Names& films) {
+  std::error_code error;
+  std::optional<Names> names;
+  if (fs::is_directory(word, error)) names = read_folder(word);
+  if (is_playlist(word) && fs::is_regular_file(word, error)) {
+    if (!read.insert(fs::canonical(word)).second) return;
+    names = read_playlist(word);
+  }
+  for (const std::string& name : names.value_or(Names())) add_films(name, read, films);
+  if (names || word.empty()) return;
+  // A file that looks like a URI, as "Alien:Romulus.avi" does, is none.
+  films.push_back(gst_uri_is_valid(word.c_str()) && is_there(word) ? "./" + word : word);
 }
 
 }  // namespace
 
 bool is_playlist(const std::string& path) {
-  constexpr const char* kEnds[] = {".m3u", ".m3u8", ".pls", ".xspf"};
-  return std::any_of(std::begin(kEnds), std::end(kEnds),
-                     [&](const char* end) { return ends_as(path, end); });
+  return is_xml(path) || ends_as(path, {".m3u", ".m3u8", ".pls"});
 }
 
 std::vector<std::string> films_of(const std::vector<std::string>& words) {
-  std::vector<std::string> films;
+  Names films;
+  std::set<fs::path> read;
   for (const std::string& word : words) {
-    std::error_code error;
-    std::vector<std::string> found{word};
-    if (fs::is_directory(word, error)) found = read_folder(word);
-    if (is_playlist(word) && fs::is_regular_file(word, error)) found = read_playlist(word);
-    std::move(found.begin(), found.end(), std::back_inserter(films));
+    const size_t before = films.size();
+    read.clear();
+    add_films(word, read, films);
+    if (films.size() == before) throw std::runtime_error(word + ": this playlist names no film");
   }
   return films;
 }

@@ -104,28 +104,68 @@ class Command(track_case.TrackCase):
         for words in ("film.avi max-force=2", "film.avi -- max-force=2"):
             self.assertIn("properties come before the film: spidar-feel max-force=2 -- film.avi", self.feel(words, 2))
 
-    def test_a_folder_and_a_playlist_are_played_in_their_order(self):
-        """gst-play-1.0 prints its arguments here."""
-        self.write_program("bin/gst-play-1.0", "#!/bin/sh\necho plays $*\n")
-        for name in ("in/10.avi", "in/9.avi", "in/9.avi.haptic.wav", "in/below/ü.mkv", "in/notes.txt", "in/.hidden.avi"):
+    def played(self, words):
+        """What gst-play-1.0 is given."""
+        self.write_program("bin/gst-play-1.0", "#!/bin/sh\nprintf '%s\\n' \"$@\"\n")
+        return self.feel(words, env="PATH=$PWD/bin:$PATH").splitlines()
+
+    def make_films(self, *names):
+        for name in names:
             self.path(name).parent.mkdir(parents=True, exist_ok=True)
             self.path(name).write_bytes(b"RIFF\0")
-        uri = "http://somewhere/film"
-        for name, text, said in (
-                ("a.m3u", f"#EXTM3U\r\n#EXTINF:1,A song\r\nin/10.avi\r\n\r\n{uri}\r\n", f"./in/10.avi {uri}"),
-                ("in/b.M3U8", "\ufeff9.avi\n/elsewhere.avi\n", "in/9.avi /elsewhere.avi"),
-                ("c.pls", f"[playlist]\nNumberOfEntries=2\nFile10={uri}\nTitle10=x\nFile9=in/9.avi\n", f"./in/9.avi {uri}"),
-                ("d.xspf", "<playlist><trackList><track><title>9</title><location>in/below/%C3%BC.mkv</location></track>"
-                 f"<track><location> {uri}?a&amp;b </location></track></trackList></playlist>",
-                 f"{self.path('in/below').as_uri()}/%C3%BC.mkv {uri}?a&b"),
-                ("live.m3u8", "#EXTM3U\n#EXT-X-VERSION:3\n#EXTINF:4,\n1.ts\n", "live.m3u8")):
-            self.path(name).write_text(text, encoding="utf-8")
+
+    def test_a_folder_is_played_in_the_order_of_its_names(self):
+        self.make_films("in/10.avi", "in/9.avi", "in/9.avi.haptic.wav", "in/below/ü.mkv", "in/notes.txt", "in/.hidden.avi")
+        self.assertEqual(self.played("in"), ["in/9.avi", "in/10.avi", "in/below/ü.mkv"])
+        self.assertEqual(self.played("in/9.avi in/below/"), ["in/9.avi", "in/below/ü.mkv"])
+
+    def test_a_playlist_stands_for_what_it_names(self):
+        self.make_films("in/10.avi", "in/9.avi", "in/below/ü.mkv", "100% #1.avi", "100%25.avi", "100%.avi", "a b.avi",
+                        "Alien:Romulus.avi", " c.avi", "fran\xe7ais.avi")
+        os.rename(self.path("a b.avi"), self.path("a\u2019b.avi"))
+        self.path("n.m3u").write_text("n.m3u\nin/o.m3u\nin/below\n")
+        uri, here = "http://somewhere/film%201?a&b", self.path("in/10.avi").as_uri()
+        for name, text, wanted in (
+                # By hand: blanks, empty lines, comments, every end of a line, a byte order mark.
+                ("a.m3u", f"#EXTM3U\r\n#EXTINF:1,A song\r\n in/10.avi\t\r\n\r\n{uri}\r\n", ["./in/10.avi", uri]),
+                ("in/b.M3U8", "\ufeff9.avi\r/elsewhere.avi\r", ["in/9.avi", "/elsewhere.avi"]),
+                ("c.m3u", " c.avi\nAlien:Romulus.avi\nmissing.avi", ["./ c.avi", "./Alien:Romulus.avi", "./missing.avi"]),
+                # By programs: encoded, with backslashes, with URIs of files.
+                ("d.m3u", "100%25%20%231.avi\n100%25.avi\n100%.avi\n", ["./100% #1.avi", "./100%25.avi", "./100%.avi"]),
+                ("e.m3u", f"in\\below\\ü.mkv\n.\\in\\10.avi\n{here}\nfile:///no/film.avi\n",
+                 ["./in/below/ü.mkv", "././in/10.avi", str(self.path("in/10.avi")), "file:///no/film.avi"]),
+                ("f.m3u", "in/below/ü.mkv\n".encode("utf-16"), ["./in/below/ü.mkv"]),
+                ("g.m3u", "fran\xe7ais.avi\na\u2019b.avi\n".encode("cp1252"), ["./fran\xe7ais.avi", "./a\u2019b.avi"]),
+                ("h.pls", f"[playlist]\nNumberOfEntries=2\nFile10={uri}\nTitle10=x\nFile9 = in/9.avi \n", ["./in/9.avi", uri]),
+                ("i.m3u", "[Playlist]\nfile1=in/9.avi\nFile1=in/10.avi\nFile2=\nLength1=-1\n", ["./in/10.avi"]),
+                ("j.xspf", "<?xml version='1.0' encoding='UTF-8'?>\n<playlist xmlns='http://xspf.org/ns/0/'><title>a</title>"
+                 "<location>in</location><trackList><track><title>9</title>\n<location>in/below/%C3%BC.mkv</location></track>"
+                 f"<track><location>\n {uri.replace('&', '&amp;')} </location></track><track><location/></track>"
+                 "</trackList></playlist>", ["./in/below/ü.mkv", uri]),
+                ("k.xspf", "<?xml version='1.0' encoding='ISO-8859-1'?><playlist><trackList><track><location>fran\xe7ais.avi"
+                 "</location></track></trackList></playlist>".encode("latin-1"), ["./fran\xe7ais.avi"]),
+                ("l.asx", "<ASX version=3.0><Base href='x'><Title>a & b</Title><Entry><Ref HREF = 'in\\9.avi'/></ENTRY>"
+                 "<entry><ref href='in/10.avi'></entry><entryref href='c.m3u'/></asx>",
+                 ["./in/9.avi", "./in/10.avi", "./ c.avi", "./Alien:Romulus.avi", "./missing.avi"]),
+                ("m.wpl", "<?wpl version='1.0'?><smil><body><seq><media src='in\\9.avi'/></seq></body></smil>", ["./in/9.avi"]),
+                # Of playlists and folders, in a circle; one film that is played in parts.
+                ("in/o.m3u", "10.avi\n../n.m3u\n", ["in/10.avi", "in/../in/below/ü.mkv"]),
+                ("live.m3u8", "#EXTM3U\n#EXT-X-VERSION:3\n#EXTINF:4,\n1.ts\n", ["live.m3u8"]),
+                ("empty.m3u", "#EXTM3U\n", []), ("empty.xspf", "", []), ("self.pls", "[playlist]\nFile1=self.pls\n", [])):
+            self.path(name).write_bytes(text if isinstance(text, bytes) else text.encode())
             self.path(name).chmod(0o755)  # as on file systems that know no permissions
-            self.assertEqual(self.feel(name, env="PATH=$PWD/bin:$PATH"), f"plays {said}\n")
-        for words, said in (("in", "in/9.avi in/10.avi in/below/ü.mkv"), ("in/9.avi in/below/", "in/9.avi in/below/ü.mkv")):
-            self.assertEqual(self.feel(words, env="PATH=$PWD/bin:$PATH"), f"plays {said}\n")
-        self.path("empty.m3u").write_text("#EXTM3U\n")
-        self.assertIn("empty.m3u: this playlist names no film", self.feel("empty.m3u", 126))
+            if wanted:
+                self.assertEqual(self.played(name), wanted, name)
+            else:
+                self.assertIn(f"{name}: this playlist names no film", self.feel(name, 126))
+        self.assertEqual(self.played("n.m3u"), ["./in/10.avi", "./in/below/ü.mkv"])
+
+    def test_a_path_that_exists_is_a_file_whatever_it_looks_like(self):
+        self.make_films("Alien:Romulus.avi", "http:x/film.avi", "100%25.avi")
+        for words, wanted in (("Alien:Romulus.avi", ["./Alien:Romulus.avi"]), ("http:x", ["./http:x/film.avi"]),
+                              ("http:x/film.avi", ["./http:x/film.avi"]), ("100%25.avi", ["100%25.avi"]),
+                              ("http://x/film.avi", ["http://x/film.avi"])):
+            self.assertEqual(self.played(words), wanted)
 
     def test_the_package_of_a_player_that_is_missing_is_named(self):
         self.path("film.avi").write_bytes(b"RIFF")
