@@ -4,16 +4,15 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 #include <unistd.h>
 
-#include "core/track/csv_track.h"
 #include "core/track/funscript.h"
 #include "core/track/track_reader.h"
 #include "plugin/films/file_pipeline.h"
 #include "plugin/films/film_reader.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/tools/csv_track.h"
 #include "plugin/tracks/exchange_file.h"
 #include "plugin/tracks/open_track.h"
 #include "plugin/tracks/sidecar.h"
@@ -157,17 +156,16 @@ void read_hjif_track(const SampleSource::Take& take, TrackCondition& found) {
   for (const TrackSample& sample : samples) take(sample);
 }
 
-void read_csv(const SampleSource::Take& take, TrackCondition& found) {
-  std::ifstream file(found.track);
-  if (!file) throw std::runtime_error(found.track + ": " + std::strerror(errno));
-  found.notes.origin = "csv";
-  CsvTrackReader reader(take);
-  try {
-    for (std::string line; std::getline(file, line);) reader.add(line);
-    reader.finish();
-  } catch (const TrackFileError& error) {
-    throw std::runtime_error(found.track + ", " + error.what());
+/// Caps for the segment to come behind: flacenc pushes the end of a track that is no longer than
+/// one of its blocks before its own, and GStreamer warns of that.
+GstPadProbeReturn store_caps(GstPad* pad, GstPadProbeInfo* info, gpointer) {
+  if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_STREAM_START) {
+    return GST_PAD_PROBE_OK;
   }
+  const Ref<GstCaps> caps(gst_caps_new_empty_simple("audio/x-flac"));
+  const Ref<GstEvent> event(gst_event_new_caps(caps.get()));
+  gst_pad_store_sticky_event(pad, event.get());
+  return GST_PAD_PROBE_REMOVE;
 }
 
 /// Sound that `encoder` makes.
@@ -183,6 +181,11 @@ void write_sound(const PartFile& part, const std::string& encoder, const SampleF
   stored.watch(file.find("stored"));
   const Ref<GstPad> pad(gst_element_get_static_pad(file.find("samples"), "src"));
   tracks::tag(pad.get(), notes);
+  if (ends_with(part.target(), ".flac")) {
+    const Ref<GstPad> encoded(gst_element_get_static_pad(file.find("flac"), "src"));
+    gst_pad_add_probe(encoded.get(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, store_caps, nullptr,
+                      nullptr);
+  }
   file.play_until(GST_MESSAGE_EOS);
   file.stop();
   stored.check(part);
@@ -198,7 +201,7 @@ bool ends_with(const std::string& text, const std::string& end) {
 std::string encoder_of(const std::string& path) {
   if (ends_with(path, ".flac")) {
     return "audioconvert dithering=none noise-shaping=none ! audio/x-raw,format=S24_32LE ! "
-           "identity name=stored ! flacenc blocksize=40 seekpoints=0";
+           "identity name=stored ! flacenc name=flac blocksize=40 seekpoints=0";
   }
   if (ends_with(path, ".mka")) return "identity name=stored ! matroskamux";
   if (ends_with(path, ".wav")) return "identity name=stored ! wavenc";
@@ -228,7 +231,8 @@ TrackCondition read_track(const std::string& path, const SampleSource::Take& tak
                              ": AHAP has neither directions nor torque, so it is written, but not "
                              "read; use the track that it was made from");
   } else if (ends_with(found.track, ".csv")) {
-    read_csv(take, found);
+    found.notes.origin = "csv";
+    read_csv(found.track, take);
   } else if (tracks::is_exchange_file(found.track)) {
     read_hjif_track(take, found);
   } else {
