@@ -69,7 +69,7 @@ ImageMotion free_motion(const Frame& frame, const AnalyzerSettings& settings) {
       return camera_motion(*frame.background, frame.votes, frame.interval_s());
     case MotionKind::kObjects:
       return motion_at_pointer(frame.objects, frame.place.film_px(settings.pointer),
-                               frame.height());
+                               frame.shown_height_px);
     case MotionKind::kObject:
       break;
   }
@@ -136,6 +136,7 @@ void ForceRenderer::reset() {
 
 void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
                            const Orientation& turn) {
+  frame.shown_height_px = turn.is_sideways() ? frame.width() : frame.height();
   const ChoiceInput input = choice_frame(frame, settings, stream_ns, turn);
   Chosen choice;
   if (settings.motion != MotionKind::kMean && frame.width() != 0) choice = choice_.choose(input);
@@ -171,9 +172,9 @@ void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64
     washout_.reset();
   }
   const ImageMotion steady =
-      filter_.filter(frame.motion, frame.height(), interval_s, settings.filter);
+      filter_.filter(frame.motion, frame.shown_height_px, interval_s, settings.filter);
   const Wrench wanted =
-      render_motion(controller_, steady, settings.axes, frame.height(), interval_s);
+      render_motion(controller_, steady, settings.axes, frame.shown_height_px, interval_s);
   const double gain = choice.rule && !choice.is_kept ? choice.rule->gain : 1;
   const double most_N = settings.controller.max_force_N;
   const Wrench passed =

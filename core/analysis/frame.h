@@ -17,7 +17,9 @@ namespace spidar {
 /// The result for one frame: the steps of the analysis fill it in, one after the other, and all
 /// other code reads it.
 struct Frame : MeasuredFrame {
-  Chosen choice;             ///< without `object`
+  Chosen choice;  ///< without `object`
+  /// Height of the film as it is shown, in the unit of its lengths: what speeds refer to.
+  int shown_height_px = 0;
   uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or not one alone
   ImageMotion motion;        ///< the one that is felt, unfiltered, in px/s of the frame
   Wrench wrench;  ///< wanted by the controller, before any safety limit; turned and weakened as it

@@ -61,7 +61,8 @@ struct ChoiceInput {
   const std::vector<MovingObject>& objects;
   const Background* background;  ///< null when it is not known
   const FilmPlace& place;
-  int height() const { return place.area.height; }  ///< of the film, px
+  /// Of the film as it is shown, px.
+  int height() const { return turn.is_sideways() ? place.area.width : place.area.height; }
   double interval_s;  ///< since the previous frame; 0 when there is none
   bool is_cut;        ///< nothing in it was in the previous frame
   int64_t stream_ns;  ///< position in the film

@@ -161,8 +161,8 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;
-  if (frame.height() > 0 &&
-      reference_speeds_px_s(frame.motion, {}, frame.height()).norm() >= kMoving_px_s) {
+  if (frame.shown_height_px > 0 &&
+      reference_speeds_px_s(frame.motion, {}, frame.shown_height_px).norm() >= kMoving_px_s) {
     return NoForceReason::kTooWeak;
   }
   if (frame.interval_ns > Cadence::kLongest_ns) return NoForceReason::kFewPictures;

@@ -40,7 +40,7 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
 Frame unfelt() {
   Frame frame;
   frame.picture = Likeness::kOther;
-  frame.place.area.height = 480;
+  frame.shown_height_px = 480;
   frame.interval_ns = kFrame_ns;
   frame.features = 100;
   return frame;

@@ -32,15 +32,17 @@ const Turn kTurns[] = {
     {"flip-rotate-180", {1, 0}, {0, -1}}, {"flip-rotate-270", {0, 1}, {1, 0}},
 };
 
-/// After two frames, between which everything moves right and a little up.
-Wrench felt_with(const std::vector<GstTagList*>& tags) {
+/// After two frames of this size, between which everything moves by this; right and a little up.
+Wrench felt_with(const std::vector<GstTagList*>& tags, int width = 240, int height = 240,
+                 const Eigen::Vector2d& moved_px = {2, -1}) {
   ElementHarness h;
-  h.set_caps(make_caps("GRAY8", 320, 240));
+  h.set_caps(make_caps("GRAY8", width, height));
   for (GstTagList* given : tags) gst_harness_push_event(h.harness(), gst_event_new_tag(given));
   for (int n = 0; n < 2; ++n)
-    h.push_moved(2.0 * n, -1.0 * n, static_cast<GstClockTime>(n) * kFrame);
+    h.push_moved(n * moved_px.x(), n * moved_px.y(), static_cast<GstClockTime>(n) * kFrame);
   EXPECT_EQ(h.motions().size(), 2u);
-  EXPECT_NEAR(h.motions().back().velocity_x, 50, 2.5) << "of the frame, not of what is shown";
+  EXPECT_NEAR(h.motions().back().velocity_x, 25 * moved_px.x(), 2.5)
+      << "of the frame, not of what is shown";
   return h.motions().back().wrench;
 }
 
@@ -56,6 +58,14 @@ TEST(Orientation, ForceIsTurnedLikeThePicture) {
       EXPECT_EQ(felt.force_N, Eigen::Vector3d(shown.x(), -shown.y(), plain.force_N.z()));
     }
   }
+}
+
+TEST(Orientation, AnUprightFilmIsAsStrongOnItsSide) {
+  const double upright_N = felt_with({}, 240, 320, {1, 2}).force_N.norm();
+  GstTagList* const tag = orientation_tags("rotate-90", GST_TAG_SCOPE_STREAM);
+  const double on_its_side_N = felt_with({tag}, 320, 240, {2, -1}).force_N.norm();
+  // The force rises at most in proportion to the speed, and velocities are right to 2.5 of 56 px/s.
+  EXPECT_NEAR(on_its_side_N, upright_N, 2 * 2.5 / 56 * upright_N);
 }
 
 TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {

@@ -64,9 +64,9 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
   if (shown_in) {
     follow_film(report);
     shown.film = film_;
-    shown.speed_px_s =
-        reference_speeds_px_s(report.frame.motion, settings.analyzer.axes, report.frame.height())
-            .norm();
+    shown.speed_px_s = reference_speeds_px_s(report.frame.motion, settings.analyzer.axes,
+                                             report.frame.shown_height_px)
+                           .norm();
   }
   // Before the overlay draws into the frame, because the window draws arrows of its own.
   if (shown_in && shown_in->wants_frame()) shown_in->give(frame, shown);
