@@ -137,8 +137,8 @@ class Osc(Output):
 class Midi(Output):
     def open(self):
         options, mido = self.options, load("mido", "python3-mido")
-        self.moved = f"controls {options.control} to {options.control + len(options.axes) - 1}"
-        self.message, self.last = mido.Message, {}
+        self.moved = ", ".join(f"control {options.control + i}" for i in range(len(options.axes)))
+        self.message, self.last, self.looked_s, self.is_there = mido.Message, {}, 0, lambda: True
         if "/" in options.place:
             device = os.open(options.place, os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
             self.close, self.put = lambda: os.close(device), lambda message: os.write(device, message.bin())
@@ -147,12 +147,18 @@ class Midi(Output):
             load("rtmidi", "python3-rtmidi")
         found = [name for name in mido.get_output_names() if options.place in name]
         if not found:
-            raise ValueError(f"is no part of the name of a MIDI port; there are: {', '.join(mido.get_output_names()) or 'none'}")
+            names = ", ".join(mido.get_output_names()) or "none"
+            raise ValueError(f"is no part of the name of a MIDI port; there are: {names}")
         port = mido.open_output(found[0])
+        self.is_there = lambda: found[0] in mido.get_output_names()
         self.close, self.put = port.close, port.send
 
     def write(self, values, rests):
-        """Controls that have changed."""
+        """Controls that have changed. A port whose device is gone takes them, too."""
+        if rests or time.monotonic() > self.looked_s + STALL_S:
+            if not self.is_there():
+                raise OSError("is gone")
+            self.looked_s = time.monotonic()
         for control, value in enumerate(values, self.options.control):
             message = self.message("control_change", channel=self.options.channel - 1, control=control,
                                    value=min(127, round(64 + 64 * value)))

@@ -129,11 +129,12 @@ class Ports(Case):
         self.assertEqual(read_all(inlet)[:6], bytes([0xB1, 16, 64, 0xB1, 17, 64]))
 
     def test_a_midi_port_has_a_part_of_a_name(self):
-        (self.folder / "ports.py").write_text("class Output:\n    def __init__(self, name, **_): self.name, self.got = name, []\n"
+        (self.folder / "ports.py").write_text("names = ['Synth 24:0']\nclass Output:\n"
+                                              "    def __init__(self, name, **_): self.name, self.got = name, []\n"
                                               "    def send(self, message): self.got.append(message)\n"
                                               "    def close(self): pass\n"
-                                              "def get_devices(**_): return [{'name': 'Synth 24:0', 'is_input': False, "
-                                              "'is_output': True}]\n")
+                                              "def get_devices(**_): return [{'name': name, 'is_input': False, "
+                                              "'is_output': True} for name in names]\n")
         with mock.patch.object(sys, "path", [str(self.folder), *sys.path]), \
                 mock.patch.object(mido, "backend", backend := mido.Backend("ports")), \
                 mock.patch.multiple(mido, get_output_names=backend.get_output_names, open_output=backend.open_output):
@@ -142,6 +143,13 @@ class Ports(Case):
             self.assertEqual(output.put.__self__.got[0].bytes(), [0xB0, 16, 127])
             with self.assertRaisesRegex(ValueError, "there are: Synth 24:0"):
                 self.output("midi:Piano")
+            backend.module.names.clear()
+            output.rest()
+            self.assertRegex(output.unsaid, "the rest .*: control 16 may still move")
+            backend.module.names.append("Synth 28:0")
+            output.send([1])
+            self.assertEqual(self.said[-1], "midi:Synth: is back")
+            self.assertEqual([message.value for message in output.put.__self__.got], [127])
 
     def test_a_board_that_stops_reading_is_told_and_gets_the_rest_first(self):
         board, line = self.board()
