@@ -10,6 +10,7 @@ deleted, so that nobody can try what the digests were of.
 """
 
 import csv
+import fcntl
 import hashlib
 import io
 import os
@@ -146,21 +147,26 @@ def forget(answers, is_of):
 @contextmanager
 def session(answers):
     """All is written in one, after its entry. What is left of the last one without having been written as a whole is removed.
-    Prints what somebody is to note."""
-    for path in (Path(f"{answers}{table}") for table in TABLES):
-        text = path.read_text(encoding="utf-8") if path.exists() else ""
-        if text and not text.endswith("\n"):
-            replace_file(path, text[:text.rfind("\n") + 1])
-    last = [*read(answers).values()][-1:]
-    is_lost = any(entry["kind"] in WITH_CONTENT and not any(fits(entry, each) for each in contents_of(answers, entry)) for entry in last)
-    add(answers, "session", platform.node())
-    if is_lost:
-        add(answers, "cut off")
-    try:
-        yield
-    finally:
-        add(answers, "end")
-        print(f"\nNote with the form of consent: {codes(answers)[-1]}")
+    Prints what somebody is to note. Raises ValueError while there is another one."""
+    with open(f"{answers}.chain", "ab") as lock:
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError as error:
+            raise ValueError(f"{answers}: another program has a session of this study; wait until it has ended") from error
+        for path in (Path(f"{answers}{table}") for table in TABLES):
+            text = path.read_text(encoding="utf-8") if path.exists() else ""
+            if text and not text.endswith("\n"):
+                replace_file(path, text[:text.rfind("\n") + 1])
+        last = [*read(answers).values()][-1:]
+        is_lost = any(entry["kind"] in WITH_CONTENT and not any(fits(entry, each) for each in contents_of(answers, entry)) for entry in last)
+        add(answers, "session", platform.node())
+        if is_lost:
+            add(answers, "cut off")
+        try:
+            yield
+        finally:
+            add(answers, "end")
+            print(f"\nNote with the form of consent: {codes(answers)[-1]}")
 
 
 def contents_of(answers, entry):
@@ -231,6 +237,8 @@ def misfits(answers):
         yield f"{answers}.chain: is missing, so nobody knows whether anything was changed"
         return
     wrong, killed = walk(entries)
+    if lines_of(answers, ".chain")[0] != line_of(COLUMNS):
+        wrong = {1: "is not as it was written"} | wrong
     yield from (f"{answers}.chain:{n}: {said}" for n, said in wrong.items())
     for table in TABLES:
         rows = lines_of(answers, table)

@@ -100,6 +100,7 @@ class Integrity(unittest.TestCase):
                 (".traces/P1-2.haptic.csv", "P1", "P3", "P1-2.haptic.csv: is not as it was written"),
                 (".chain", r"(\n(?:[^,]*,){4})\w\w", r"\g<1>00", ".chain:2: does not follow from the line before"),
                 (".chain", r"\n[^\n]*\n", "\n", ".chain:2: does not follow from the line before"),
+                (".chain", "time_utc", "time", ".chain:1: is not as it was written"),
                 (".chain", r"\n[^\n]*\n", "\nnothing\n", ".chain:2: does not follow from the line before")]:
             with self.subTest(said=said):
                 keep = Path(f"{self.path}{name}").read_bytes()
@@ -269,6 +270,12 @@ class Integrity(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "copy.csv: has answers of another file, given at the same times"):
             self.report(self.path, copy)
         self.assertIn(f"{copy}.settings.json: is not as it was written", report.misfits([self.path, copy]))
+
+    def test_nobody_writes_into_the_session_of_another_program(self):
+        with chain.session(self.path):
+            with self.assertRaisesRegex(ValueError, "another program has a session of this study"), chain.session(self.path):
+                pass
+        self.assertNotIn("EXPLORATORY", self.report())
 
     def test_files_that_were_put_together_are_refused(self):
         other = self.study(self.folder / "other.csv", people=("P1",), host="lab2")
