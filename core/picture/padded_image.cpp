@@ -24,11 +24,11 @@ v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels) {
   return (pairs & cv::v_setall_u16(0xFF)) + (pairs >> 8);
 }
 
-/// The same for `rows` rows, `step` bytes apart.
-template <typename Reader>
-v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step, int rows) {
+/// The same for `kRows` rows, `step` bytes apart.
+template <int kRows, typename Reader>
+v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step) {
   v_uint16x8 sum = pair_sums(reader, pixels);
-  for (int k = 1; k < rows; ++k) sum = sum + pair_sums(reader, pixels + k * step);
+  for (int k = 1; k < kRows; ++k) sum = sum + pair_sums(reader, pixels + k * step);
   return sum;
 }
 
@@ -39,23 +39,16 @@ v_uint16x8 add_neighbours(const v_uint16x8& a, const v_uint16x8& b) {
                                              cv::v_dotprod(cv::v_reinterpret_as_s16(b), ones)));
 }
 
-/// Sums of 8 blocks of kFactor × rows pixels.
-template <int kFactor, typename Reader>
-v_uint16x8 block_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step, int rows) {
+/// Sums of 8 blocks of kFactor × kRows pixels.
+template <int kFactor, int kRows, typename Reader>
+v_uint16x8 block_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step) {
   if constexpr (kFactor == 2) {
-    return pair_sums(reader, pixels, step, rows);
+    return pair_sums<kRows>(reader, pixels, step);
   } else {
     constexpr int kHalf = 4 * kFactor * Reader::kBytes;
-    return add_neighbours(block_sums<kFactor / 2>(reader, pixels, step, rows),
-                          block_sums<kFactor / 2>(reader, pixels + kHalf, step, rows));
+    return add_neighbours(block_sums<kFactor / 2, kRows>(reader, pixels, step),
+                          block_sums<kFactor / 2, kRows>(reader, pixels + kHalf, step));
   }
-}
-
-/// Stores 8 rounded means, sum / count; `count` is a power of 2.
-void store_means(const v_uint16x8& sums, unsigned count, uint8_t* to) {
-  const auto half = static_cast<uint16_t>(count / 2);
-  const auto inverse = static_cast<uint16_t>(65536 / count);
-  cv::v_pack_store(to, cv::v_mul_hi(sums + cv::v_setall_u16(half), cv::v_setall_u16(inverse)));
 }
 
 /// Number of rows of blocks by which pixels are prefetched. Without prefetching, the processor
@@ -86,22 +79,26 @@ uint8_t block_mean(const Reader& reader, const SourceRows& row, int x) {
   return static_cast<uint8_t>((sum + row.count() / 2u) / row.count());
 }
 
+/// `row` is a copy: what is stored might change anything else.
 template <int kFactor, typename Reader>
-int reduce_by_power_of_2(const Reader& reader, const SourceRows& row, uint8_t* to) {
+int reduce_by_power_of_2(const Reader& reader, const SourceRows row, uint8_t* to) {
   constexpr int kCacheLine = 64;
   constexpr int kBlock = kFactor * Reader::kBytes;
+  constexpr int kRows = rows_used(kFactor);
+  constexpr int kCount = kRows * kFactor;  // a power of 2
+  const v_uint16x8 half = cv::v_setall_u16(kCount / 2);
+  const v_uint16x8 inverse = cv::v_setall_u16(65536 / kCount);
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
     // Of a line that several vectors fill, once.
     const bool begins_line = 8 * kBlock >= kCacheLine || x * kBlock % kCacheLine == 0;
-    for (int k = 0; begins_line && k < row.rows; ++k) {
+    for (int k = 0; begins_line && k < kRows; ++k) {
       for (int i = 0; i < 8 * kBlock; i += kCacheLine) {
         __builtin_prefetch(row.ahead + k * row.step + x * kBlock + i);
       }
     }
-    const v_uint16x8 sums =
-        block_sums<kFactor>(reader, row.pixels + x * kBlock, row.step, row.rows);
-    store_means(sums, row.count(), to + x);
+    const v_uint16x8 sums = block_sums<kFactor, kRows>(reader, row.pixels + x * kBlock, row.step);
+    cv::v_pack_store(to + x, cv::v_mul_hi(sums + half, inverse));
   }
   return x;
 }

@@ -212,13 +212,15 @@ void BurnedIn::end(const BlockGrid& grid) {
   }
   contained_.assign(signs_.size(), 0);
   occluded_.assign(signs_.size(), 0);
+  const auto lasts = [this](size_t block) { return lasting_[block] >= kLasting; };
+  bool any_lasts = false;
+  for (size_t i = 0; i < signs_.size(); ++i) any_lasts |= lasts(i);
   for (size_t i = 0; i < signs_.size(); ++i) {
     contained_[i] = occluded_[i] = margins_.contains(grid, i);
     if (!camera_moves_ || contained_[i] != 0) continue;
-    const bool beside =
-        grid.any_around(i, [&](size_t other) { return lasting_[other] >= kLasting; });
-    contained_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace ||
-                    lasting_[i] >= kLasting || (signs_[i] == Sign::kUnexplained && beside);
+    const bool beside = any_lasts && grid.any_around(i, lasts);
+    contained_[i] = signs_[i] == Sign::kStays || signs_[i] == Sign::kInPlace || lasts(i) ||
+                    (signs_[i] == Sign::kUnexplained && beside);
     occluded_[i] = contained_[i] != 0 && beside;
   }
 }

@@ -236,14 +236,15 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
 
 void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   for (size_t i = 0; i < relative_.size(); ++i) {
-    int moving = -stands_out_[i];  // the block itself does not count
-    grid.each_around(i, 1, [&](size_t other) { moving += stands_out_[other]; });
-    const bool stands_out = stands_out_[i] != 0;
     RelativeBlock& block = relative_[i];
-    block.lasts = stands_out && stood_out_[i].fraction > kLastingAlone;
+    block.lasts = block.moves = false;
+    if (stands_out_[i] == 0) continue;
+    int moving = -1;  // the block itself does not count
+    grid.each_around(i, 1, [&](size_t other) { moving += stands_out_[other]; });
+    const float lately = stood_out_[i].fraction;
+    block.lasts = lately > kLastingAlone;
     block.moves =
-        block.lasts || (stands_out && (moving >= kMinNeighbours ||
-                                       (moving > 0 && stood_out_[i].fraction > kLastingBesideOne)));
+        block.lasts || moving >= kMinNeighbours || (moving > 0 && lately > kLastingBesideOne);
   }
 }
 
