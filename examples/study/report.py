@@ -152,8 +152,9 @@ def look(paths, people, level):
     if looks[-2:-1] >= [planned]:
         return None, f"AFTER THE TEST: the level was spent when {planned} participants were reached, so no p is that of a test"
     found = levels(looks, planned, level)[-1]
-    return found, (f"INTERIM, NOT THE TEST: " if looks[-1] < planned else "") + (
-        f"look {len(looks)}, at {looks[-1]} of {planned} participants: p counts below {found:.3g}, so that all looks together err in {100 * level:g} %")
+    return found, ("INTERIM, NOT THE TEST: " if looks[-1] < planned else "") + (
+        f"look {len(looks)}, at {looks[-1]} of {planned} participants: p counts below {found:.3g}, so that all looks together "
+        f"err in {100 * level:g} %")
 
 
 def report(answers, paths=(), exploratory=False):

@@ -218,13 +218,14 @@ class Figures(unittest.TestCase):
         self.assertEqual(self.wrong([text, table]), [])
         for rows, said in (([text], "the table below \"Speed\" has figures"), ([table], "the text below \"Speed\" has figures"),
                            ([text, table, ["a.md", "Pace", *text[2:]]], "there is no text below \"Pace\""),
+                           ([text, [*table[:3], "-", *table[4:6], "measured once"]], "its note does not begin with constant"),
                            ([text, [*table[:3], bench + "speed", *table[4:]]], "there is no \"build/tests/bench/spidar-bench speed\"")):
             found = self.wrong(rows)
             self.assertEqual((len(found), said in found[0]), (1, True), found)
 
     def test_a_table_is_compared_with_what_the_command_printed(self):
-        row = ["a.md", "Speed", "table", "-", "cost", "0.1", ""]
-        rows = [row, ["a.md", "Speed", "text", "-", "-", "-", ""]]
+        row = ["a.md", "Speed", "table", "-", "cost", "0.1", "constant"]
+        rows = [row, ["a.md", "Speed", "text", "-", "-", "-", "constant"]]
         with tempfile.TemporaryDirectory() as folder:
             self.assertIn("is missing", self.wrong(rows, folder)[0])
             Path(folder, "cost.txt").write_text("0.27 0.1 0.4 -1.4", encoding="ascii")
@@ -234,7 +235,7 @@ class Figures(unittest.TestCase):
             self.assertEqual((len(found), "a.md: 0.25 below" in found[0]), (1, True), found)
 
     def test_of_a_text_those_figures_that_its_row_names(self):
-        rows = [["a.md", "*", "*", "-", "-", "-", ""], ["a.md", "Speed", "text", "-", "cost", "0.1: 3.5", ""]]
+        rows = [["a.md", "*", "*", "-", "-", "-", "constant"], ["a.md", "Speed", "text", "-", "cost", "0.1: 3.5", "derived from it"]]
         with tempfile.TemporaryDirectory() as folder:
             for printed, wrong in ("3.6", 0), ("3.5e-3", 1), ("4", 1):
                 Path(folder, "cost.txt").write_text(printed, encoding="ascii")

@@ -9,7 +9,8 @@ figures of each table are in RESULTS/NAME.txt, which tests/bench/results.sh has 
 
     page, heading, part     the part is `table` or `text`; of several tables below one heading, `table 2` and so on; `*` for
                             both: what else the page has
-    command                 what prints the figures, or `-`: they were not measured here
+    command                 what prints the figures, or `-`: they were not measured here, and the note says what they are, by
+                            one of NOT_MEASURED
     name, differs           the file of results.sh, and by how much, in parts of a figure, it may differ from run to run and
                             from machine to machine; `0.05: 84.2 63` has which of the figures, always of a text; `-`: compare it
                             yourself
@@ -23,8 +24,11 @@ from pathlib import Path
 TABLE = Path(__file__).with_name("figures.tsv")
 COLUMNS = ["page", "heading", "part", "command", "name", "differs", "note"]
 NUMBER = r"[-−]?\d+(?:[ ,]\d{3})*(?:\.\d+)?(?:e-?\d+)?"
-UNITS = r"(?:%|°|ms|µs|ns|s|m|mm|cm|px|N|mN|mJ|Hz|kHz|rad|mrad|µN|MB|KiB|MiB|GB|grey|frames|films|clips|times|steps)"
-MEASURED = re.compile(rf"(?<![\w.]){NUMBER} ?{UNITS}(?![\w-])")
+UNITS = (r"(?:%|°|ms|µs|ns|s|m|mm|cm|px|N|mN|mJ|J|Hz|kHz|MHz|rad|mrad|µN|µm|kB|MB|GB|KiB|MiB|bits?|V|A|W|K|grey|frames|films|clips|"
+         r"times|steps|lines|seconds|minutes|hours|days|people|participants|studies|blocks|pictures|samples|points|cells|strings|ticks|"
+         r"presentations|cores|processors)")
+MEASURED = re.compile(rf"(?<![\w.]){NUMBER}(?: ?{UNITS}(?![\w-])|×)")
+NOT_MEASURED = ("constant", "derived", "of others", "of another page", "generated")  # where the note begins
 
 
 def parts_of(text):
@@ -105,6 +109,8 @@ def check(pages, rows, source, results=None):
         place = row["page"], row["heading"], row["part"]
         if not is_command(row["command"], source):
             yield f"figures.tsv: {place}: there is no \"{row['command']}\"; \"-\" stands for no command"
+        if row["command"] == "-" and not row["note"].startswith(NOT_MEASURED):
+            yield f"figures.tsv: {place}: has no command, and its note does not begin with {', '.join(NOT_MEASURED)}"
         if row["differs"] == "-" or place not in places:
             continue
         differs, _, chosen = row["differs"].partition(": ")
