@@ -10,24 +10,22 @@ const vm = require("vm");
 const [data, script] = [...fs.readFileSync(process.argv[2], "utf8")
   .matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map((found) => found[1]);
 
-let places = [], tip = null, origin = null, box = null, ring = null, comes = null, arcs = [], pulses = [], vibrated_ms = [], every = null, next = null;
+let places = [], tip = null, origin = null, box = null, ring = null, comes = null, dash = [], pulses = [], vibrated_ms = [], every = null, next = null;
 let scale = null;  // pixels of the canvas in one of the page
 const pen = {
   setTransform(across, _0, _1, down) { scale = [across, down]; },
-  beginPath() { places = []; arcs = []; },
+  beginPath() { places = []; },
   moveTo(x, y) { places.push([x, y]); },
   lineTo(x, y) { places.push([x, y]); },
-  arc(_x, _y, radius) { arcs.push(radius); },
+  arc(_x, _y, radius) { [ring, comes] = [radius, dash.length === 0]; },
+  setLineDash(lengths) { dash = lengths; },
   clearRect() { tip = origin = box = ring = comes = null; },
   // The second corner of the head.
   fillRect() {},
   fillText() {},
   fill() { if (pen.fillStyle === "white") tip = [places[1][0] - origin[0], origin[1] - places[1][1]]; },
   closePath() {},
-  stroke() {
-    if (places.length === 2) [origin] = places;  // the shaft
-    if (arcs.length > 0) [ring, comes] = [arcs[0], arcs.length > 1];
-  },
+  stroke() { if (places.length === 2) [origin] = places; },  // the shaft
   strokeRect(...args) { box = args; },
 };
 const part = (more) => ({ addEventListener() {}, ...more });
