@@ -139,21 +139,22 @@ class CsvReader {
 
   /// Returns false when these are not the names of columns.
   bool take_names(const Fields& fields) {
-    static const std::regex name_and_unit("(?:(t|time)|([ft][xyz]))(?:[ _,:/([{]+(.*?))?[ )\\]}]*",
-                                          std::regex::icase);
     std::array<std::string, kColumns> units;
     at_ = {};
     for (size_t i = 0; i < fields.size(); ++i) {
-      std::smatch found;
-      if (!std::regex_match(fields[i], found, name_and_unit)) continue;
-      std::string name = found[1].matched ? "time" : found[2].str();
+      const auto end = std::find_if_not(fields[i].begin(), fields[i].end(),
+                                        [](char c) { return g_ascii_isalpha(c); });
+      std::string name(fields[i].begin(), end), unit(end, fields[i].end());
       std::transform(name.begin(), name.end(), name.begin(), g_ascii_tolower);
-      const auto column =
-          static_cast<size_t>(std::find(std::begin(kColumnNames), std::end(kColumnNames), name) -
-                              std::begin(kColumnNames));
+      const auto* const known =
+          std::find(std::begin(kColumnNames), std::end(kColumnNames), name == "t" ? "time" : name);
+      if (known == std::end(kColumnNames)) continue;
+      const auto column = static_cast<size_t>(known - std::begin(kColumnNames));
       if (at_[column]) fail("names " + name + " twice");
       at_[column] = i;
-      units[column] = found[3];
+      unit.erase(0, unit.find_first_not_of(" _,:/([{"));
+      unit.erase(unit.find_last_not_of(" )]}") + 1);
+      units[column] = unit;
     }
     if (!at_[0] || at_ == Places{at_[0]}) return false;
     for (size_t column = 0; column < kColumns; ++column) {
