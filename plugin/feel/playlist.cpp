@@ -26,6 +26,9 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
+/// 10,000 films with long names have less.
+constexpr uintmax_t kMax_bytes = uintmax_t{4} << 20;
+
 bool ends_as(const std::string& path, const std::set<std::string>& ends) {
   const std::string end = fs::path(path).extension().string();
   return ends.count(taken(g_ascii_strdown(end.c_str(), -1))) > 0;
@@ -125,6 +128,9 @@ Names read_folder(const std::string& path) {
 
 /// Nothing for HLS.
 std::optional<Names> read_playlist(const std::string& path) {
+  if (fs::file_size(path) > kMax_bytes) {
+    throw std::runtime_error(path + ": has more than 4 MiB, which no playlist has");
+  }
   std::optional<Names> names = is_xml(path) ? named_in_xml(path) : named_in_lines(path);
   const fs::path folder = fs::path(path).has_parent_path() ? fs::path(path).parent_path() : ".";
   for (size_t i = 0; names && i < names->size(); ++i) (*names)[i] = named_file(folder, (*names)[i]);
@@ -142,8 +148,9 @@ void add_films(const std::string& word, std::set<fs::path>& read, Names& films) 
   }
   for (const std::string& name : names.value_or(Names())) add_films(name, read, films);
   if (names || word.empty()) return;
-  // A file that looks like a URI, as "Alien:Romulus.avi" does, is none.
-  films.push_back(gst_uri_is_valid(word.c_str()) && is_there(word) ? "./" + word : word);
+  // A file is one, whatever it looks like: a URI ("Alien:Romulus.avi"), or an option.
+  const bool looks_other = gst_uri_is_valid(word.c_str()) || word[0] == '-';
+  films.push_back(looks_other && is_there(word) ? "./" + word : word);
 }
 
 }  // namespace

@@ -184,7 +184,7 @@ Options parse(int argc, char** argv) {
   }
   if (separated) ++at;
   if (at == argc) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
-  if (argv[at][0] == '-') {
+  if (argv[at][0] == '-' && !fs::exists(argv[at])) {
     fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
   }
   options.program = argv + at;

@@ -161,9 +161,10 @@ class Command(track_case.TrackCase):
         self.assertEqual(self.played("n.m3u"), ["./in/10.avi", "./in/below/ü.mkv"])
 
     def test_a_path_that_exists_is_a_file_whatever_it_looks_like(self):
-        self.make_films("Alien:Romulus.avi", "http:x/film.avi", "100%25.avi")
+        self.make_films("Alien:Romulus.avi", "http:x/film.avi", "100%25.avi", "--mute.avi")
         for words, wanted in (("Alien:Romulus.avi", ["./Alien:Romulus.avi"]), ("http:x", ["./http:x/film.avi"]),
                               ("http:x/film.avi", ["./http:x/film.avi"]), ("100%25.avi", ["100%25.avi"]),
+                              ("--mute.avi", ["./--mute.avi"]), ("max-force=2 -- --mute.avi", ["./--mute.avi"]),
                               ("http://x/film.avi", ["http://x/film.avi"])):
             self.assertEqual(self.played(words), wanted)
 
