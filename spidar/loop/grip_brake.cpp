@@ -6,12 +6,17 @@
 #include <cmath>
 
 #include "spidar/grip/grip.h"
+#include "spidar/limits/released_turn.h"
 #include "spidar/loop/brake_table.h"
+#include "spidar/loop/turn_damping.h"
 
 namespace spidar {
 namespace {
 
 using namespace brake;
+
+/// The cosine of such an error of the direction is 0.88.
+constexpr double kAimed_rad = 0.5;
 
 /// What is left of a force at `speed_m_s`.
 double left_at(double speed_m_s, const FadeBand& band) {
@@ -29,12 +34,21 @@ Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velo
   return vector - (1 - left) * std::max(0.0, vector.dot(direction)) * direction;
 }
 
-/// The force or torque that damps `velocity`, which is as in faded().
-Eigen::Vector3d damping(const Eigen::Vector3d& velocity, double arm_m, const FadeBand& band) {
+/// The force or torque that damps the part of `velocity` above the band, where `velocity` is as in
+/// faded(), and `damping` is in N s/m or N m s/rad.
+Eigen::Vector3d damped(const Eigen::Vector3d& velocity, double arm_m, const FadeBand& band,
+                       double damping) {
   const double speed_m_s = arm_m * velocity.norm();
   const double above_m_s = speed_m_s - band.from_m_s;
   if (!(above_m_s > 0)) return Eigen::Vector3d::Zero();
-  return -arm_m * arm_m * band.damping_N_s_m * above_m_s / speed_m_s * velocity;
+  return -damping * above_m_s / speed_m_s * velocity;
+}
+
+/// What is left of a wrench until which acts the grip turns by `turn_rad`. Strings that are pulled
+/// for another pose give another wrench: they accelerated a grip at 300 rad/s instead of braking
+/// it.
+double aimed_at(double turn_rad) {
+  return std::clamp(2 - turn_rad / kAimed_rad, 0.0, 1.0);
 }
 
 /// `vector`, whose component along `velocity` is limited to that of `most`.
@@ -71,7 +85,8 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   if (resting_s_ > 0) yield_.begin();
   yield_.see(position_m, velocity_m_s, strings_N_, rest_N_, is_whole(), dt_s);
   unheld_.see(velocity_m_s, dt_s);
-  spun_s_ = turn_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : 0;
+  // A grip that turns to and fro is slow twice in each turn.
+  spun_s_ = turn_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : std::max(0.0, spun_s_ - dt_s / 2);
   // No grip that nobody holds has more energy than the heaviest at its speed.
   const double speed_m_s =
       kSpeedError_m_s + std::max(velocity_m_s.norm(), ahead_.linear_m_s.norm());
@@ -128,19 +143,19 @@ double GripBrake::damped_kg(double speed_m_s) const noexcept {
 }
 
 /// For a grip that has stored energy, the speeds are lower by kEarlier_m_s, because that energy
-/// adds to the work of a reversed force. Until a hand has withstood a force, and above
-/// kHeavyFrom_m_s, the energy that the strings at rest have stored is subtracted from kReleased_J,
-/// and the speeds are lower accordingly: otherwise a film would push a heavy grip to where no
-/// string can brake it, and the strings at rest would throw it back.
+/// adds to the work of a reversed force. The most that the turn may have is subtracted from
+/// kReleased_J, and the speeds are lower accordingly. So is, until a hand has withstood a force,
+/// and above kHeavyFrom_m_s, the energy that the strings at rest have stored: otherwise a film
+/// would push a heavy grip to where no string can brake it, and the strings at rest would throw it
+/// back.
 FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy = heaviness(), earlier_m_s = yield_.stores_energy() ? kEarlier_m_s : 0;
   const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s;
   const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s;
-  double share = 1;
-  if (!withstands_at(speed_m_s)) {
-    const double left = std::sqrt(std::clamp(1 - stored_J_ / kReleased_J, 0.0, 1.0));
-    share = std::max(left, kSpeedError_m_s / from_m_s);
-  }
+  const double turn_J = 0.5 * most_inertia_kg_m2(radius_m_) * ahead_.angular_rad_s.squaredNorm();
+  const double other_J = turn_J + (withstands_at(speed_m_s) ? 0 : stored_J_);
+  const double left = std::sqrt(std::clamp(1 - other_J / kReleased_J, 0.0, 1.0));
+  const double share = std::max(left, std::min(1.0, kSpeedError_m_s / from_m_s));
   return {share * from_m_s, share * to_m_s, kDamping_1_s * damped_kg(speed_m_s)};
 }
 
@@ -149,11 +164,16 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   ahead_ = motion.velocity_in(kLoop_s + drive_lag_s_);
   const double speed_m_s = motion.velocity().linear_m_s.norm();
   band_ = band_at(speed_m_s);
-  damper_ = {damping(ahead_.linear_m_s, 1, band_), damping(ahead_.angular_rad_s, radius_m_, band_)};
+  const double arm_m = surface_m(radius_m_);
+  damper_ = {damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
+             damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(radius_m_))};
   // The strings cannot do both: the tension that a torque takes is missing for the linear damper.
   allowed_ = {faded(fraction_ * wanted.force_N, ahead_.linear_m_s, 1, band_),
               left_at(ahead_.linear_m_s.norm(), band_) *
-                  faded(fraction_ * wanted.torque_Nm, ahead_.angular_rad_s, radius_m_, band_)};
+                  faded(fraction_ * wanted.torque_Nm, ahead_.angular_rad_s, arm_m, band_)};
+  const double aimed = aimed_at(motion.velocity().angular_rad_s.norm() * (kLoop_s + drive_lag_s_));
+  allowed_ = aimed * allowed_;
+  damper_ = aimed * damper_;
   if (!withstands_at(speed_m_s)) allowed_.force_N = not_further_out(allowed_.force_N);
   if (ahead_.linear_m_s.norm() > kNoRise_m_s) {
     allowed_.force_N = without_excess(allowed_.force_N, not_risen_N(), ahead_.linear_m_s);
@@ -181,7 +201,7 @@ Eigen::Vector3d GripBrake::not_risen_N() const noexcept {
 
 bool GripBrake::acts() const noexcept {
   const double speed_m_s =
-      std::max(ahead_.linear_m_s.norm(), radius_m_ * ahead_.angular_rad_s.norm());
+      std::max(ahead_.linear_m_s.norm(), surface_m(radius_m_) * ahead_.angular_rad_s.norm());
   return resting_s_ > 0 || ahead_.linear_m_s.norm() > kNoRise_m_s || left_at(speed_m_s, band_) < 1;
 }
 

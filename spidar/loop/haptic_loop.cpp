@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "core/wrench_size.h"
+#include "spidar/limits/released_turn.h"
 #include "spidar/loop/brake_table.h"
+#include "spidar/loop/wrench_chain.h"
 
 namespace spidar {
 namespace {
@@ -252,31 +254,32 @@ void HapticLoop::command(TickRecord& record, const Step& step, int64_t passed_ns
     state_ = power_ < 1 ? DeviceState::kOpening : DeviceState::kRunning;
   }
   limit(record, step, passed_s);
-  counters_.rejected_wrenches = safety_.rejected();
 }
 
-/// From the wanted wrench to the commanded one: the steps of docs/architecture.md, in their order.
 /// After command() has found the state of this tick.
 void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) noexcept {
-  const SafetyLimits &set = limits_.as_set(), &in_effect = limits_.in_effect();
-  // Total limits: a fraction of what exceeds one might be all that it allows.
-  const Wrench total = record.wanted.is_finite() ? limit_total(record.wanted, set) : record.wanted;
-  // Vibration.
-  const Wrench allowed = vibration_.fraction() * total;
-  // Brake.
-  const bool can_fly = grip_->traits().can_fly;
-  const Wrench left = can_fly ? brake_.apply(allowed, grip_->reading().motion, passed_s) : allowed;
-  record.brakes = can_fly && brake_.acts();
-  // Rates. They and the limits in effect fall by the same steps, but for rounding and late ticks.
   const bool fresh = is_fresh(record);
-  const double dt_s = fresh ? step.rises_s : step.falls_s;
-  record.commanded = limit_total(safety_.apply(left, fresh, dt_s, set), in_effect);
-  if (record.brakes) {
-    // At once. What is across the motion and what is against it may be too much together.
-    const Wrench cut = limit_total(brake_.cut(record.commanded, fresh), in_effect);
-    safety_.continue_from(cut);
-    record.commanded = limit_total(cut + brake_.damper(), braking_limits());
+  const GripTraits& grip = grip_->traits();
+  SafetyLimits set = limits_.as_set();
+  if (grip.can_fly) {
+    set.max_torque_Nm =
+        std::min(set.max_torque_Nm, released_torque_Nm(grip.radius_m, grip.drive_lag_s, late_s_));
   }
+  const double dt_s = fresh ? step.rises_s : step.falls_s;
+  WrenchChain chain{set,
+                    limits_.in_effect(),
+                    braking_limits(),
+                    vibration_,
+                    brake_,
+                    safety_,
+                    grip,
+                    grip_->reading().motion,
+                    fresh,
+                    dt_s,
+                    passed_s};
+  record.commanded = chain.apply(record.wanted);
+  record.brakes = chain.brakes;
+  counters_.rejected_wrenches += chain.rejected;
 }
 
 void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {

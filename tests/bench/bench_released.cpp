@@ -6,6 +6,7 @@
 // their parameters towards the worst tenth. Simulated time, so that the results are the same on
 // every machine.
 //   spidar-bench released [GRIPS] [SEED] [CASE]     100,000 grips, or those of one case
+//   spidar-bench released --prove                   what no film exceeds, see prove_released.cpp
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,9 +21,10 @@
 
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/grip/string_grip.h"
-#include "spidar/limits/released_grip.h"
+#include "spidar/limits/released_turn.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/prove_released.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/let_go_device.h"
 #include "tests/support/random_motion.h"
@@ -60,6 +62,7 @@ constexpr Case kCases[] = {
 /// Parameters, each 0 … 1.
 enum Parameter {
   kMass,
+  kInertia,
   kStiffness,
   kDamping,
   kForm,
@@ -117,7 +120,7 @@ double wave(const Point& p, double time_s) {
 
 /// What the truth of the device has reached.
 struct Worst {
-  double speed_m_s = 0, energy_J = 0, force_N = 0, felt_s = 0;
+  double speed_m_s = 0, energy_J = 0, force_N = 0, felt_s = 0;  // the energy with that of the turn
 
   double of(Case::Goal goal) const {
     return goal == Case::kEnergy ? energy_J : goal == Case::kSpeed ? speed_m_s : force_N;
@@ -126,6 +129,8 @@ struct Worst {
 
 GripModel hand_of(const Profile& profile, const Case& what, const Point& p) {
   GripModel model = released(profile, between(what.from_kg, what.to_kg, p[kMass]));
+  // From half of a solid sphere's to nearly all of the mass at the radius.
+  model.inertia_kg_m2 *= between(0.5, 2, p[kInertia]);
   const GripModel firm = grip_model_of(profile);
   const bool is_loose = !what.lets_go && !what.cuts;
   model.hand_stiffness_N_m =
@@ -142,9 +147,15 @@ Worst play(const Profile& profile, const Case& what, const Point& p) {
   constexpr int kPlayed_ms = 2500;
   constexpr int64_t kFrame_ns = 4 * kTick_ns;
   const GripModel hand = hand_of(profile, what, p);
-  LetGoDevice device(profile, hand, released(profile, hand.mass_kg));
+  GripModel free = released(profile, hand.mass_kg);
+  free.inertia_kg_m2 = hand.inertia_kg_m2;
+  LetGoDevice device(profile, hand, free);
   SafetyLimits limits;
   limits.max_force_N = what.limit_N > 0 ? what.limit_N : released_force_N(profile.drive_lag_s);
+  if (!(what.limit_N > 0)) {
+    limits.max_torque_Nm =
+        released_torque_Nm(profile.geometry.grip_radius_m(), profile.drive_lag_s);
+  }
   const auto loop =
       std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);
   const double force_N = limits.max_force_N * std::min(1.0, 1.25 * p[kForce]);
@@ -199,7 +210,10 @@ Worst play(const Profile& profile, const Case& what, const Point& p) {
     if (!has_come && (what.lets_go || what.cuts)) continue;
     const double speed_m_s = device.speed_m_s();
     worst.speed_m_s = std::max(worst.speed_m_s, speed_m_s);
-    worst.energy_J = std::max(worst.energy_J, 0.5 * hand.mass_kg * speed_m_s * speed_m_s);
+    const double turn_rad_s = device.state().angular_velocity_rad_s.norm();
+    worst.energy_J =
+        std::max(worst.energy_J, 0.5 * hand.mass_kg * speed_m_s * speed_m_s +
+                                     0.5 * hand.inertia_kg_m2 * turn_rad_s * turn_rad_s);
     const double felt_N = device.string_force_N();
     worst.force_N = std::max(worst.force_N, felt_N);
     if (felt_N > limits.max_force_N) worst.felt_s += 1e-9 * static_cast<double>(now_ns - before_ns);
@@ -261,6 +275,7 @@ Searched search(const Profile& profile, const Case& what, int grips, uint64_t se
 }  // namespace
 
 int spidar::bench::released(int argc, char** argv) {
+  if (argc > 1 && argv[1] == std::string("--prove")) return prove_released(), 0;
   const int grips = argc > 1 ? std::atoi(argv[1]) : 100'000;
   const uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   if (grips <= 0) throw std::invalid_argument("usage: spidar-bench released [GRIPS] [SEED] [CASE]");

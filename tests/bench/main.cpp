@@ -32,7 +32,8 @@ const Benchmark kBenchmarks[] = {
 #endif
     {"regression", regression, "                a figure a topic; regression.py compares them"},
     {"released", released,
-     "[GRIPS] [SEED] [CASE]  the worst that a search finds of grips that are let go of"},
+     "[GRIPS] [SEED] [CASE]  the worst that a search finds of grips that are let go of, or\n"
+     "                        --prove: what no film exceeds"},
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
     {"stability", stability, "                errors of fits, poses and pictures that are hard"},

@@ -3,7 +3,9 @@
 /// What a film does to a grip that nobody holds, and that a hand which holds it notices nothing.
 /// All speeds, blows and forces are the simulated device's truth.
 #include "spidar/grip/grip_motion.h"
+#include "spidar/limits/released_turn.h"
 #include "spidar/loop/brake_table.h"
+#include "tests/support/let_go_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/test.h"
@@ -111,6 +113,132 @@ TEST(ReleasedGrip, AGripThatComesBackFromATurnGetsNoForceYet) {
   EXPECT_TRUE(grip.snapshot().last.held);
 }
 
+/// A grip in no hand, whose device answers only in one tick of `every`.
+class SeldomDevice final : public StringDevice {
+ public:
+  SeldomDevice(const Profile& profile, const GripModel& model, int every)
+      : StringDevice("seldom"), grip_(profile, model, model), every_(every) {}
+
+  void open() override { grip_.open(); }
+  void close() noexcept override { grip_.close(); }
+  LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
+    grip_.exchange_at(++ticks_ * kTick_ns);
+    return ticks_ % every_ == 0 ? grip_.exchange(volts, reading) : LinkFault::kTimeout;
+  }
+  double turn_rad_s() const { return grip_.state().angular_velocity_rad_s.norm(); }
+
+ private:
+  LetGoDevice grip_;
+  const int every_;
+  int64_t ticks_ = 0;
+};
+
+/// A torque turns a grip in no hand for a moment, and the film pauses. The damper of its turn must
+/// not shake it for ever: damped as if its mass were at its radius, a light grip went on at 17 to
+/// 250 rad/s. A second later, only the friction of the strings turns it on, if anything: half of
+/// the speed from which the brake acts on the largest grip is left.
+TEST(ReleasedGrip, ItsTurnComesToRest) {
+  constexpr double kAtRest_rad_s = 0.5 * brake::kFadeFrom_m_s / 0.05;
+  SafetyLimits limits;
+  limits.max_torque_Nm = 9;  // more than any device gives
+  for (const std::string& name : list_profiles()) {
+    Profile profile = load_profile(name);
+    for (const auto& [inertia, every, lag_s] :
+         {std::tuple(0.25, 1, 0.002), {0.25, 3, 0.002}, {1.0, 1, 0.045}, {4.0, 3, 0.01}}) {
+      profile.drive_lag_s = lag_s;
+      GripModel model = released(profile, kLightestGrip_kg);
+      model.inertia_kg_m2 *= inertia;
+      SeldomDevice device(profile, model, every);
+      const auto loop =
+          std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);
+      loop->open();
+      int64_t now_ns = 0;
+      const auto run = [&](int ticks) {
+        double most_rad_s = 0;
+        for (int i = 0; i < ticks; ++i) {
+          now_ns += kTick_ns;
+          loop->tick(now_ns, now_ns);
+          most_rad_s = std::max(most_rad_s, device.turn_rad_s());
+        }
+        return most_rad_s;
+      };
+      run(250);
+      loop->set_playback_clock({now_ns, 0, 1, true});
+      loop->schedule({0, 60 * kTick_ns, {{0, 0, 0}, {0, 0, limits.max_torque_Nm}}});
+      const double first_rad_s = run(100);
+      loop->set_playback_clock({now_ns, 0, 1, false});
+      run(1000);
+      const double last_rad_s = run(300);
+      EXPECT_LE(last_rad_s, kAtRest_rad_s)
+          << name << ", " << inertia << " times the inertia, an answer in " << every
+          << " ticks, a lag of " << lag_s << " s: " << first_rad_s << " rad/s at first";
+    }
+  }
+}
+
+TEST(ReleasedTurn, TheLargestTorqueGivesALightGripTheSpeedOfTheLargestForce) {
+  // Whatever the radius is, the surface of a sphere of 34 g gets no faster than kReleased_m_s.
+  for (const double radius_m : {0.01, 0.02, 0.03}) {
+    const double torque_Nm = released_torque_Nm(radius_m, 0.002);
+    const double turn_rad_s =
+        torque_Nm * (kNoticed_s + 0.002) / (0.4 * kLightestGrip_kg * radius_m * radius_m);
+    EXPECT_GE(turn_rad_s * radius_m, kReleased_m_s * (1 - 1e-12)) << radius_m;
+    const double reversed_rad_s =
+        turn_rad_s * (kNoticed_s + kReversed * 0.002) / (kNoticed_s + 0.002);
+    EXPECT_LE(reversed_rad_s * radius_m, kReleased_m_s * (1 + 1e-12)) << radius_m;
+  }
+  EXPECT_LT(released_torque_Nm(0.03, 0.002, 1e-3), released_torque_Nm(0.03, 0.002));
+  EXPECT_EQ(released_torque_Nm(0, 0.002), std::numeric_limits<double>::infinity());
+}
+
+TEST(ReleasedTurn, NoTorqueAboveThatIsCommanded) {
+  const Profile profile = load_profile(kDefaultProfile);
+  SafetyLimits limits;
+  limits.max_torque_Nm = 1;
+  const double most_Nm = released_torque_Nm(profile.geometry.grip_radius_m(), profile.drive_lag_s);
+  const Film film = [](double) { return Wrench{{0, 0, 0}, {0, 0, 1}}; };
+  PlayedGrip grip(profile, grip_model_of(profile), film, limits);
+  double largest_Nm = 0;
+  for (int i = 0; i < 200; ++i) {
+    grip.tick();
+    largest_Nm = std::max(largest_Nm, grip.snapshot().last.commanded.torque_Nm.norm());
+  }
+  EXPECT_LE(largest_Nm, most_Nm * (1 + 1e-12));
+  EXPECT_GT(largest_Nm, 0.9 * most_Nm);
+}
+
+/// A callback returns what is not a number while its force moves a hand on. That counts as no
+/// force, and the brake takes it at once; compared with what is not a number, it took nothing.
+TEST(ReleasedGrip, WhatIsNotANumberDoesNotKeepTheBrakeFromActing) {
+  constexpr double kWay_m = 0.03, kTurn_rad_s = 2 * M_PI * 5;
+  const Profile profile = load_profile(kDefaultProfile);
+  const Film nothing = [](double) { return Wrench{}; };
+  PlayedGrip grip(profile, grip_model_of(profile), nothing);
+  bool is_bad = false;
+  grip.loop->callback().set(
+      [&](const CallbackInput& in) {
+        const double pull_N = is_bad ? std::numeric_limits<double>::quiet_NaN() : 3;
+        return Wrench{pull_N * in.velocity.linear_m_s.normalized(), {0, 0, 0}};
+      },
+      false);
+  int bad = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Pose hand;
+    hand.position_m.x() = kWay_m * std::sin(kTurn_rad_s * 1e-3 * i);
+    grip.device.set_hand(hand);
+    grip.tick();
+    const TickRecord last = grip.snapshot().last;
+    if (is_bad) {
+      // Rest is on its way from up to 3 N at the slew limit across the motion only.
+      EXPECT_LE(last.commanded.force_N.dot(last.velocity.linear_m_s.normalized()), 0.3) << i;
+    }
+    const double along_N = last.commanded.force_N.dot(last.velocity.linear_m_s.normalized());
+    is_bad = !is_bad && last.brakes && along_N > 1;
+    bad += is_bad;
+  }
+  EXPECT_GT(bad, 0);
+}
+
 TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   GripMotion spins;
   for (int i = 0; i < 100; ++i) {
@@ -127,7 +255,10 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
     }
     return brake.held();
   };
-  const auto rest = [&] { brake.see(Eigen::Vector3d::Zero(), {}, 0, 1e-3); };
+  // What counts is forgotten in twice its time.
+  const auto rest = [&] {
+    for (int i = 0; i < 20; ++i) brake.see(Eigen::Vector3d::Zero(), {}, 0, 1e-3);
+  };
   EXPECT_TRUE(is_held_after(9));
   rest();
   EXPECT_TRUE(is_held_after(9));

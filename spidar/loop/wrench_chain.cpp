@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+#include "spidar/loop/wrench_chain.h"
+
+namespace spidar {
+
+const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
+    {"Finite", "a wrench with a part that is not a number counts as none",
+     "because no later step could compare with it", &WrenchChain::finite},
+    {"Total", "force and torque as they are set",
+     "so that the next two steps take a fraction of what may be given", &WrenchChain::total},
+    {"Vibration", "the daily action value of Directive 2002/44/EC",
+     "so that a force becomes weaker when it has shaken the hand for long",
+     &WrenchChain::vibration},
+    {"Brake", "no force along a motion that is faster than a hand's",
+     "because nobody may hold the grip", &WrenchChain::brake},
+    {"Rates", "300 N/s and 10 N m/s unless others are set, and a ramp of 40 ms to rest and back",
+     "so that a hand has the time to withstand", &WrenchChain::rates},
+    {"In effect", "the limits that are set, or that fall to these at the rates",
+     "because the wrench of before may be above them", &WrenchChain::effect},
+    {"Cut", "at once, along the motion, what the brake has left, again within the limits in effect",
+     "because a force that fell at the rates would throw the grip", &WrenchChain::cut},
+    {"Damper", "with it, the limits in effect, or what the strings exert at rest",
+     "because it takes back what these have given", &WrenchChain::damper},
+}};
+
+Wrench WrenchChain::apply(const Wrench& wanted) noexcept {
+  Wrench left = wanted;
+  for (const Step& step : kSteps) left = (this->*step.leave)(left);
+  return left;
+}
+
+Wrench WrenchChain::finite(const Wrench& wrench) noexcept {
+  if (wrench.is_finite()) return wrench;
+  rejected = fresh;
+  return {};
+}
+
+Wrench WrenchChain::total(const Wrench& wrench) noexcept {
+  return limit_total(wrench, set);
+}
+
+Wrench WrenchChain::vibration(const Wrench& wrench) noexcept {
+  return vibration_budget.fraction() * wrench;
+}
+
+Wrench WrenchChain::brake(const Wrench& wrench) noexcept {
+  if (!traits.can_fly) return wrench;
+  const Wrench left = grip_brake.apply(wrench, motion, passed_s);
+  brakes = grip_brake.acts();
+  return left;
+}
+
+Wrench WrenchChain::rates(const Wrench& wrench) noexcept {
+  return rate_limits.apply(wrench, fresh, rates_s, set);
+}
+
+/// They and the limits in effect fall by the same steps, but for rounding and
+/// late ticks.
+Wrench WrenchChain::effect(const Wrench& wrench) noexcept {
+  return limit_total(wrench, in_effect);
+}
+
+/// What is across the motion and what is against it may be too much together.
+Wrench WrenchChain::cut(const Wrench& wrench) noexcept {
+  if (!brakes) return wrench;
+  const Wrench left = limit_total(grip_brake.cut(wrench, fresh), in_effect);
+  rate_limits.continue_from(left);
+  return left;
+}
+
+Wrench WrenchChain::damper(const Wrench& wrench) noexcept {
+  return brakes ? limit_total(wrench + grip_brake.damper(), braking) : wrench;
+}
+
+}  // namespace spidar
