@@ -3,10 +3,7 @@
 /// Properties of windows, which any program may set to anything.
 #pragma once
 
-#include <algorithm>
-#include <cstring>
 #include <string>
-#include <vector>
 
 #include "plugin/gobject/ref.h"
 
@@ -22,20 +19,19 @@ struct Property {
 
 /// Its items, where it has this type and items of this size: 8 bits are a char, 32 are a long,
 /// however long that is. Otherwise none.
-template <typename Item>
-std::vector<Item> items_of(const Property& property, unsigned long type) {
+template <typename Items>
+Items items_of(const Property& property, unsigned long type) {
+  using Item = typename Items::value_type;
   static_assert(sizeof(Item) == sizeof(char) || sizeof(Item) == sizeof(long));
   constexpr int kBits = sizeof(Item) == sizeof(char) ? 8 : 32;
-  std::vector<Item> items;
-  if (property.type != type || property.bits != kBits || !property.data) return items;
-  items.resize(property.count);
-  if (!items.empty()) std::memcpy(items.data(), property.data, items.size() * sizeof(Item));
-  return items;
+  if (property.type != type || property.bits != kBits || !property.data) return {};
+  const auto* const items = reinterpret_cast<const Item*>(property.data);
+  return {items, items + property.count};
 }
 
 /// As UTF-8, up to a zero. What is none is taken for Latin-1, as which every byte is a letter.
-inline std::string text_of(const std::vector<char>& bytes) {
-  const std::string text(bytes.begin(), std::find(bytes.begin(), bytes.end(), '\0'));
+inline std::string text_of(const std::string& bytes) {
+  const std::string text = bytes.c_str();
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
   return taken(g_convert(text.c_str(), -1, "UTF-8", "ISO-8859-1", nullptr, nullptr, nullptr));
 }

@@ -18,8 +18,8 @@ template <typename Data>
 using FromX = std::unique_ptr<Data, int (*)(void*)>;
 
 /// Empty when the window does not have it, or as another type.
-template <typename Item>
-std::vector<Item> property_of(Display* display, Window window, const char* name, const char* type) {
+template <typename Items>
+Items property_of(Display* display, Window window, const char* name, const char* type) {
   constexpr long kMaxWords = 16'384;
   unsigned long left = 0;
   unsigned char* data = nullptr;
@@ -31,7 +31,7 @@ std::vector<Item> property_of(Display* display, Window window, const char* name,
   }
   const FromX<unsigned char> own(data, XFree);
   found.data = data;
-  return items_of<Item>(found, wanted);
+  return items_of<Items>(found, wanted);
 }
 
 std::vector<Window> children_of(Display* display, Window window) {
@@ -43,7 +43,7 @@ std::vector<Window> children_of(Display* display, Window window) {
 }
 
 bool is_of_program(Display* display, Window window) {
-  return !property_of<long>(display, window, "WM_STATE", "WM_STATE").empty();
+  return !property_of<std::vector<long>>(display, window, "WM_STATE", "WM_STATE").empty();
 }
 
 thread_local bool call_has_failed = false;
@@ -68,7 +68,7 @@ bool take_x11_failure() {
 std::string title_of(Display* display, Window window) {
   for (const auto& [name, type] :
        {std::pair("_NET_WM_NAME", "UTF8_STRING"), std::pair("WM_NAME", "STRING")}) {
-    const std::vector<char> title = property_of<char>(display, window, name, type);
+    const auto title = property_of<std::string>(display, window, name, type);
     if (!title.empty()) return text_of(title);
   }
   return "";
@@ -83,7 +83,8 @@ bool is_own(Display* display, Window window) {
 
 std::vector<Window> program_windows(Display* display) {
   const Window root = DefaultRootWindow(display);
-  const auto listed = property_of<Window>(display, root, "_NET_CLIENT_LIST_STACKING", "WINDOW");
+  const auto listed =
+      property_of<std::vector<Window>>(display, root, "_NET_CLIENT_LIST_STACKING", "WINDOW");
   return listed.empty() ? children_of(display, root) : listed;
 }
 

@@ -49,9 +49,9 @@ void read_property(int bits, const uint8_t* data, size_t size) {
   bytes.shrink_to_fit();
   const Property property{size % 7 == 0 ? kType + 1 : kType, bits, size / item, bytes.data()};
   const size_t count = property.type == kType ? property.count : 0;
-  const auto windows = items_of<unsigned long>(property, kType);
+  const auto windows = items_of<std::vector<unsigned long>>(property, kType);
   require(windows.size() == (bits == 32 ? count : 0), "fuzz_screen: windows of other items");
-  const auto text = items_of<char>(property, kType);
+  const auto text = items_of<std::string>(property, kType);
   require(text.size() == (bits == 8 ? count : 0), "fuzz_screen: a text of other items");
   require(g_utf8_validate(text_of(text).c_str(), -1, nullptr), "fuzz_screen: a title that is none");
 }
