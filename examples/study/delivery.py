@@ -216,12 +216,12 @@ def judge(haptic_trace, frame_trace, screen_trace, wanted, is_muted, others=()):
         state = (hand.device - Counter(running=hand.count)).most_common(1)[0][0]
         return share, f"the device was {state} in {100 * not_running:.0f} % of the time"
     pictures = hand.pictures
-    for amount_ms, most_ms, said in ((pictures.stood_ms(), max(FROZEN_MS, 2 * pictures.frame_ms), "the picture stood still for {:.0f} ms"),
-                                     (hand.waited_ms(), FROZEN_MS, "the device stood still, or was elsewhere in the clip, for {:.0f} ms"),
-                                     (pictures.drift_ms(), FROZEN_MS, "the clip was longer or shorter than it should be by {:.0f} ms"),
-                                     (pictures.stray_ms(), JITTER_MS, "a picture came {:.0f} ms from where the preview has one")):
-        if amount_ms > most_ms:
-            return share, said.format(amount_ms)
+    of_time = ((pictures.stood_ms(), max(FROZEN_MS, 2 * pictures.frame_ms), "the picture stood still for {:.0f} ms"),
+               (hand.waited_ms(), FROZEN_MS, "the device stood still, or was elsewhere in the clip, for {:.0f} ms"),
+               (pictures.drift_ms(), FROZEN_MS, "the clip was longer or shorter than it should be by {:.0f} ms"),
+               (pictures.stray_ms(), JITTER_MS, "a picture came {:.0f} ms from where the preview has one"))
+    if wrong := [said.format(amount_ms) for amount_ms, most_ms, said in of_time if amount_ms > most_ms]:
+        return share, "; ".join(wrong)
     noticed = hand.noticed()
     worst = int(noticed.argmax())
     if noticed[worst] > 1 or share < 1 - WEBER and not is_muted:
