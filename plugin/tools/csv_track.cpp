@@ -165,13 +165,16 @@ class CsvReader {
   }
 
   double size_of(const std::string& text, size_t column) const {
-    static const std::regex product("[ _.*-]|·|⋅"), micro("µ|μ");
-    const auto& units = quantity_of(column).units;
+    static const std::regex product("[ _.*-]|·|⋅|\u00A0|\u202F"), micro("µ|μ");
     const std::string unit = std::regex_replace(std::regex_replace(text, product, ""), micro, "u");
     if (unit.empty()) return 1;
-    if (const auto found = units.find(unit); found != units.end()) return found->second;
     std::string known;
-    for (const auto& [name, size] : units) known += (known.empty() ? "" : ", ") + name;
+    for (const auto& [name, size] : quantity_of(column).units) {
+      // As in FX_N and TZ_NM, but MN are no mN.
+      const bool is_mega = column > 0 && unit[0] == 'M';
+      if (g_ascii_strcasecmp(name.c_str(), unit.c_str()) == 0 && !is_mega) return size;
+      known += (known.empty() ? "" : ", ") + name;
+    }
     fail(std::string(kColumnNames[column]) + ": the unit \"" + text + "\" is not one of " + known);
   }
 

@@ -72,6 +72,7 @@ TEST_F(CsvTrack, ATableMeansTheSameInEveryDialect) {
           // Units.
           "time_ms,fx_mN,tz_mNm\n0,0,0\n1,500,-20\n"s,
           "Time (µs);Fx (cN);Tz (N·mm)\n0;0;0\n1000;50;-20\n"s,
+          "TIME_MS,FX_N,TZ_N\u00A0M\n0,0,0\n1,0.5,-0.02\n"s,
           "t/ns,fx/kN,tz/N.cm\n0,0,0\n1e6,5e-4,-2\n"s,
           "t_min\tfx_uN\ttz [N*m]\n0\t0\t0\n1.6666666666667e-5\t500000\t-0.02\n"s,
       }) {
@@ -115,6 +116,7 @@ TEST_F(CsvTrack, WhatIsWrongIsNamedWithItsLine) {
            {"time_s,fx_lbf\n0,1\n",
             ", line 1: fx: the unit \"lbf\" is not one of N, cN, kN, mN, uN"},
            {"time_s,tz_Nmm2\n0,1\n", ", line 1: tz: the unit \"Nmm2\" is not one of Ncm, Nm, Nmm"},
+           {"time_s,fx_MN\n0,1\n", ", line 1: fx: the unit \"MN\" is not"},
            {"time_s,tx_N\n0,1\n", ", line 1: tx: the unit \"N\" is not"},
            {"Time (days);fx\n0;1\n", ", line 1: time: the unit \"days\" is not one of min, ms"},
            {"# time_frames,fx\n0,1\n", ", line 2: time: the unit \"frames\" is not"},
