@@ -180,6 +180,7 @@ TEST(ReplaceFile, ALinkStaysOneAndLeadsToTheNewFile) {
 TEST(ReplaceFile, PartsThatWereLeftDoNotBlockIt) {
   const Folder folder;
   const std::string file = folder.file("file"), other = folder.file("other");
+  fs::create_symlink(other, folder.file(".spidar-" + std::to_string(getpid()) + ".part"));
   constexpr int kLeft = 2000;  // more than the saves of this program before
   for (int i = 0; i < kLeft; ++i) {
     fs::create_symlink(other, folder.file(".spidar-" + std::to_string(getpid()) + "-" +
