@@ -25,6 +25,7 @@
 #include "examples/play/record.h"
 #include "examples/play/report.h"
 #include "plugin/films/part_file.h"
+#include "plugin/properties/software_gl.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/tools/gnuplot.h"
 #include "spidar/tools/command_line.h"
@@ -200,7 +201,8 @@ bool set_properties(GstElement* filter, const Options& options) {
   return has_overlay;
 }
 
-int play(const Options& options) {
+/// `changed` is said where the video has a window.
+int play(const Options& options, const std::string& changed) {
   if (!options.ball) spidar::note_read(options.video);
   prepare_output(options.output);
   GstElement* const filter = GST_ELEMENT(gst_object_ref_sink(make_filter()));
@@ -210,6 +212,9 @@ int play(const Options& options) {
   std::string title = options.ball ? "videotestsrc pattern=ball" : options.video;
   if (fs::path(title).has_filename()) title = fs::path(title).filename();
   const Screen screen = open_screen(options.headless, options.window);
+  if (screen.why_none.empty() && !options.window && !changed.empty()) {
+    std::printf("note: %s\n", changed.c_str());
+  }
   GstElement* const pipeline =
       options.ball ? make_ball(filter, screen) : make_player(options.video, filter, screen);
   std::printf("playing %s%s\n", title.c_str(),
@@ -286,8 +291,9 @@ int main(int argc, char** argv) {
   CLI::App app("Plays a video whose motion is felt, and ends with a report and a picture of it.");
   try {
     const Options options = parse(app, argc, argv);
+    const std::string changed = spidar::avoid_software_gl();
     gst_init(nullptr, nullptr);
-    return spidar::tools::status_after_printing("play", play(options));
+    return spidar::tools::status_after_printing("play", play(options, changed));
   } catch (const CLI::ParseError& error) {
     return spidar::tools::status_after_printing("play", app.exit(error) == 0 ? 0 : kMistake);
   } catch (const std::invalid_argument& error) {

@@ -24,6 +24,7 @@
 #include "plugin/follow/follow.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/properties/own_plugins.h"
+#include "plugin/properties/software_gl.h"
 #include "plugin/properties/typed_property.h"
 #include "plugin/screen/screen.h"
 #include "spidar/install_folder.h"
@@ -298,6 +299,8 @@ void run_films(char** films) {
          "remote session; without a picture, it is felt with --videosink=\"fakesink sync=true\" "
          "behind it");
   }
+  const std::string changed = has_sink ? "" : spidar::avoid_software_gl();
+  if (!changed.empty()) std::fprintf(stderr, "spidar-feel: %s\n", changed.c_str());
   std::vector<char*> words{const_cast<char*>(kPlayer)};
   for (std::string& film : named) words.push_back(film.data());
   words.push_back(nullptr);

@@ -14,7 +14,7 @@ FEEL = os.environ["SPIDAR_FEEL"]
 
 class Command(track_case.TrackCase):
     def feel(self, line, status=0, env=None):
-        return self.run_in_folder(f"DISPLAY=:0 {env or ''} {FEEL} {line}", status)
+        return self.run_in_folder(f"DISPLAY=:0 GST_PLUGIN_FEATURE_RANK= {env or ''} {FEEL} {line}", status)
 
     def test_wrong_usage_is_named(self):
         for arguments, status, said in (
@@ -103,6 +103,17 @@ class Command(track_case.TrackCase):
         self.assertIn("film.avi: No such file or directory", self.feel("sub/film.avi", 127))
         for words in ("film.avi max-force=2", "film.avi -- max-force=2"):
             self.assertIn("properties come before the film: spidar-feel max-force=2 -- film.avi", self.feel(words, 2))
+
+    def test_without_a_graphics_card_the_film_is_shown_without_opengl(self):
+        """What gst-play-1.0 gets of the ranks is printed here."""
+        self.write_program("bin/gst-play-1.0", "#!/bin/sh\necho ${GST_PLUGIN_FEATURE_RANK-unset}\n")
+        self.path("film.avi").write_bytes(b"RIFF\0")
+        has_card = os.path.exists("/dev/dri/renderD128") or os.path.exists("/dev/nvidiactl")
+        for words, ranks in (("film.avi", "unset" if has_card else "glimagesink:NONE"), ("film.avi --videosink=x", "unset")):
+            said = self.run_in_folder(f"unset GST_PLUGIN_FEATURE_RANK; PATH=$PWD/bin:$PATH DISPLAY=:0 {FEEL} {words}")
+            self.assertEqual(said.splitlines()[-1], ranks)
+            self.assertEqual("there is no graphics card" in said, ranks != "unset")
+        self.assertEqual(self.feel("film.avi", env="PATH=$PWD/bin:$PATH GST_PLUGIN_FEATURE_RANK=x:1"), "x:1\n")
 
     def played(self, words):
         """What gst-play-1.0 is given."""
