@@ -5,7 +5,7 @@
 # into BUILD/results/NAME.txt, which a release attaches. BUILD has -Dbenchmarks=enabled. All of them take hours; the
 # machine should do nothing else.
 #   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
-#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films and pareto, with films made by truth.py
+#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films, same_films and pareto, with films made by truth.py
 #   GYROSCOPE=FOLDER                           also gyroscope; its script says what is in this folder
 set -eu
 cd "$(dirname "$0")/../.."
@@ -19,6 +19,7 @@ run() { # NAME
     tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 object:1 paper dis:ultrafast:0.25 ;;
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
     changed_films) BUILD=$build tests/bench/changed_films.py "$FILMS" ;;
+    same_films) BUILD=$build tests/bench/same_films.py "$FILMS" ;;
     pareto) BUILD=$build tests/bench/pareto.sh "$FILMS" --output "$folder" ;;
     gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
     films) BUILD=$build tests/bench/pathologies.sh ;;
@@ -32,7 +33,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar tests/core/test_core
-[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films pareto} gyroscope skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
+[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films same_films pareto} gyroscope skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

@@ -30,6 +30,7 @@ except ImportError:
 sys.path.append(str(FOLDER.parent / "docs"))
 import check_figures  # noqa: E402
 import gyroscope  # noqa: E402
+import same_films  # noqa: E402
 from real_films import Frame, Tally, read_other  # noqa: E402
 
 
@@ -50,6 +51,14 @@ class OtherMethod(unittest.TestCase):
                 file.write_text(wrong, encoding="ascii")
                 with self.assertRaisesRegex(SystemExit, said):
                     read_other(Path(name), film, frames)
+
+
+class SameFilms(unittest.TestCase):
+    def test_a_force_is_compared_with_the_mirrored_one(self):
+        film = [(1, 0), (1, 0), (1, 0), (1, .5), (0, 0), (0, 0)]
+        changed = [(-1, .1), (1, 0), (0, 0), (-1, 1.5), (0, 0), (0, 1)]
+        self.assertEqual(same_films.compare(film, changed, -1), [4, 2, 1, 1, 2, 1])
+        self.assertEqual(same_films.compare(film, film, 1), [4, 4, 0, 0, 2, 0])
 
 
 class Benchmark(unittest.TestCase):
