@@ -5,7 +5,8 @@
 # into BUILD/results/NAME.txt, which a release attaches. BUILD has -Dbenchmarks=enabled. All of them take hours; the
 # machine should do nothing else.
 #   tests/bench/results.sh BUILD [NAME...]     NAME: some of them only
-#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films, same_films and pareto, with films made by truth.py
+#   FILMS=FOLDER tests/bench/results.sh ...    also real_films, changed_films, same_films and pareto, with films made by
+#                                              truth.py
 #   GYROSCOPE=FOLDER                           also gyroscope; its script says what is in this folder
 set -eu
 cd "$(dirname "$0")/../.."
