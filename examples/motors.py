@@ -303,13 +303,13 @@ def make_player(options, trace):
     return player
 
 
-def play(options, player, ends):
-    """Until the film ends or there is a signal in `ends`; returns what is wrong, or nothing."""
+def play(options, player, sender):
+    """Until the film or the thread that sends has ended; returns what is wrong, or nothing."""
     if not math.isfinite(options.scale):
         return f"--scale {options.scale}: is not a finite number, such as 0.5"
     player.set_state(Gst.State.PLAYING)
     message = None
-    while not message and not ends:
+    while not message and sender.is_alive():
         message = player.bus.timed_pop_filtered(100 * Gst.MSECOND, Gst.MessageType.ERROR | Gst.MessageType.EOS)
     return f"{options.film}: {message.parse_error()[0].message}" if message and message.type == Gst.MessageType.ERROR else ""
 
@@ -319,9 +319,9 @@ def main():
     ended, ending = os.pipe()
     os.set_blocking(ending, False)
     signal.set_wakeup_fd(ending)  # so that the thread that sends hears of it, whatever this one does
-    ends, heard = [], [each for each in ENDS if signal.getsignal(each) != signal.SIG_IGN]  # as nohup has it
+    heard = [each for each in ENDS if signal.getsignal(each) != signal.SIG_IGN]  # as nohup has it
     for each in heard:
-        signal.signal(each, lambda number, _: ends.append(number))
+        signal.signal(each, lambda *_: None)
     with tempfile.TemporaryDirectory() as folder:
         pipe = os.path.join(folder, "trace")
         os.mkfifo(pipe)
@@ -335,7 +335,7 @@ def main():
         wrong = ""
         try:
             # Also if it moves nothing, it leaves what it opened at rest.
-            wrong = play(options, player, ends)
+            wrong = play(options, player, sender)
         finally:
             os.write(ending, b"\0")
             sender.join()
