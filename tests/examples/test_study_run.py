@@ -319,15 +319,6 @@ class Streams:
             self.assertGreaterEqual(shown_s, slow.base_s + running_s, "none before it is due")
         self.assertGreaterEqual(rows[9][1] - rows[8][1], slept_s)
 
-    def test_the_screen_trace_has_what_was_shown_too_early(self):
-        """Of a sink that does not wait for the clock: the 1.5 s are over before they should be."""
-        trace = self.file("early.csv")
-        with clip_player.Player(["device=none"], "fast") as player:
-            player.play(str(self.clip), [], screen_trace=trace)
-        rows = [(int(row["running_ns"]) / 1e9, int(row["shown_ns"]) / 1e9) for row in records.read_rows(trace)]
-        self.assertEqual([shown_s for _, shown_s in rows], sorted(shown_s for _, shown_s in rows))
-        self.assertEqual(len(rows), int(SECONDS * FRAMES_S))
-
     @unittest.skipUnless(shutil.which("Xvfb"), "no Xvfb")
     def test_the_film_fills_the_screen_until_it_ends(self):
         """A white picture of another shape, on the screen of 300 × 200: white in its middle, black at its border."""
