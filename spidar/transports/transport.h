@@ -81,8 +81,8 @@ class Transport {
   /// May be called twice.
   virtual void close() noexcept = 0;
 
-  /// A second of exchanges. A few answers too many are no reason to stop, as each is dropped.
-  static constexpr int kMostUnasked = 1000;
+  /// Two seconds of exchanges. Some answers too many are no reason to stop, as each is dropped.
+  static constexpr int kMostUnasked = 2000;
 
  protected:
   enum class Unasked { kNone, kDropped, kEndless };
