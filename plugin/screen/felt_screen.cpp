@@ -74,9 +74,10 @@ bool FeltScreen::read_messages() {
 
 void FeltScreen::say(Remark& last, const std::string& text) {
   const int64_t now_ns = monotonic_now_ns();
-  if (text != last.text) last = {text, now_ns};
-  if (text.empty() || now_ns - last.since_ns < kBrief_ns) return;
-  if (said_.insert(text).second) follow::tell(text);
+  if (text != last.text) last = {text, now_ns, !text.empty()};
+  if (!last.is_due || now_ns - last.since_ns < kBrief_ns) return;
+  last.is_due = false;
+  if (std::exchange(told_, text) != text) follow::tell(text);
 }
 
 /// Empty while it is not known.
@@ -99,6 +100,7 @@ std::string FeltScreen::words_for_film(const GstStructure* stats) const {
   if (!is_all) {
     return "a film is in it, " + size + " at " + std::to_string(x) + ", " + std::to_string(y);
   }
+  if (reason == kResting) return "";
   return "no film with something at rest around it is seen: all of it is felt, " + size;
 }
 
@@ -118,7 +120,7 @@ bool FeltScreen::check() {
   const std::string change = view_.change();
   if (!change.empty()) follow::tell(change);
   if (view_.has_ended()) return false;
-  say_what_is_seen();
+  if (view_.is_shown()) say_what_is_seen();
   return true;
 }
 

@@ -29,10 +29,12 @@ class FeltScreen {
   bool check();
 
  private:
-  /// Something that is said when it has been so for a while, and only once.
+  /// Something that is said when it has been so for a while, and again when something else has been
+  /// said since.
   struct Remark {
     std::string text;
     int64_t since_ns = 0;
+    bool is_due = false;
   };
 
   bool read_messages();
@@ -44,9 +46,10 @@ class FeltScreen {
   GstElement* pipeline_;
   GstElement* felt_ = nullptr;  ///< owned by the pipeline
   bool is_simulated_ = false;
-  std::set<std::string> said_;
-  Remark film_;    ///< where it is
-  Remark reason_;  ///< why nothing is felt
+  std::set<std::string> said_;  ///< of messages
+  std::string told_;            ///< the last remark
+  Remark film_;                 ///< where it is
+  Remark reason_;               ///< why nothing is felt
 };
 
 }  // namespace spidar::screen

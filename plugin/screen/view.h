@@ -23,6 +23,8 @@ class View {
   /// What has become of it since the last call, in a sentence; empty: nothing. Called a few times
   /// a second.
   virtual std::string change() = 0;
+  /// Whether pictures of it come; until they do, they say nothing of a film.
+  virtual bool is_shown() const { return true; }
   /// Whether no further picture of it comes.
   virtual bool has_ended() const = 0;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -19,6 +20,9 @@ namespace {
 
 /// Of films, the fastest; a game is felt no better with more, and each takes a copy of the picture.
 constexpr int kPictures_Hz = 60;
+
+/// The debug window opens in one of so many parts of the screen's width and height.
+constexpr int kOwnParts = 3;
 
 /// What can be seen of a window.
 enum class Sight { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
@@ -98,6 +102,9 @@ class X11View : public View {
     if (std::exchange(sight_, seen) == seen) return "";
     return name_ + " " + words_for(seen);
   }
+  bool is_shown() const override {
+    return sight_ != Sight::kHidden && sight_ != Sight::kOutside && sight_ != Sight::kClosed;
+  }
   bool has_ended() const override { return sight_ == Sight::kClosed; }
   /// What is to be said of it from the beginning; empty: it can be seen.
   std::string first_words() const {
@@ -113,7 +120,7 @@ class X11View : public View {
       XNextEvent(display_, &event);
       if (event.type == VisibilityNotify) visibility_ = event.xvisibility.state;
     }
-    if (is_whole()) find_own();
+    find_own();
     XWindowAttributes now{};
     if (name_.empty() || XGetWindowAttributes(display_, window_, &now)) name_ = name();
   }
@@ -137,6 +144,17 @@ class X11View : public View {
     return visibility_ == VisibilityPartiallyObscured ? Sight::kPart : Sight::kWhole;
   }
 
+  /// Takes a window that has just opened out of the way, into the lower right corner of the screen:
+  /// a window manager or its absence may have put it over the film, which nobody would then see.
+  void put_aside(Window own) {
+    if (!put_aside_.insert(own).second) return;
+    const int screen = DefaultScreen(display_);
+    const int width = DisplayWidth(display_, screen), height = DisplayHeight(display_, screen);
+    const auto side = [](int length) { return static_cast<unsigned>(length / kOwnParts); };
+    XMoveResizeWindow(display_, own, width - width / kOwnParts, height - height / kOwnParts,
+                      side(width), side(height));
+  }
+
   /// Where windows of this project are on the screen.
   void find_own() {
     std::vector<XWindowAttributes> found;
@@ -148,7 +166,8 @@ class X11View : public View {
           !XTranslateCoordinates(display_, window, window_, 0, 0, &now.x, &now.y, &child)) {
         continue;
       }
-      found.push_back(now);
+      put_aside(window);
+      if (is_whole()) found.push_back(now);
     }
     const std::lock_guard<std::mutex> lock(mutex_);
     own_ = std::move(found);
@@ -181,6 +200,7 @@ class X11View : public View {
   std::string name_;
   int visibility_ = VisibilityUnobscured;
   Sight sight_ = Sight::kWhole;
+  std::set<Window> put_aside_;
   std::mutex mutex_;
   std::vector<XWindowAttributes> own_;  ///< their x and y are those on the screen
 };

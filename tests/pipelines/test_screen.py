@@ -174,6 +174,19 @@ class Windows(screen.ScreenCase, LookedAtCase):
         self.expect_said("All frames of the last second show the same picture.")
         felt.kill()
 
+    @unittest.skipUnless(pathlib.Path(FEEL).with_name("spidar-window").exists(), "it was built without the debug window")
+    def test_the_debug_window_goes_out_of_the_way(self):
+        """Without a window manager, it opens at the upper left, over what is there."""
+        film = self.show("Film")
+        self.look("", "debug-window=true")
+        self.assertTrue(comes(lambda: len(screen.windows()) > 1), self.said())
+        own = next(window for window in screen.windows() if window != film.window)
+        def left_and_top():
+            lines = dict(line.split("=") for line in xdotool("getwindowgeometry", "--shell", own).splitlines())
+            return int(lines["X"]), int(lines["Y"])
+        self.assertTrue(comes(lambda: left_and_top() > (320, 240)), left_and_top())
+        self.expect_felt()
+
     def test_own_windows_are_left_out(self):
         """A film in a window of this class is black. It says why nothing is felt."""
         film = self.show("Own", at=(100, 100))
