@@ -16,7 +16,6 @@
 #include "spidar/api/of_this_process.h"
 #include "spidar/api/surface.h"
 #include "spidar/api/vectors.h"
-#include "spidar/limits/released_turn.h"
 #include "spidar/loop/stiffness_limit.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
@@ -92,10 +91,9 @@ struct DeviceRange {
     giver = has_strings ? profile.name : device;
     largest_force_N = std::floor(10 * can.max_limit_N()) / 10;
     if (has_strings) {
-      const double released_Nm =
-          spidar::released_torque_Nm(grip.traits().radius_m, grip.traits().drive_lag_s);
-      largest_torque_Nm =
-          std::floor(1000 * std::min(spidar::largest_torque_Nm(profile), released_Nm)) / 1000;
+      const double most_Nm =
+          std::min(spidar::largest_torque_Nm(profile), grip.traits().most_torque_Nm());
+      largest_torque_Nm = std::floor(1000 * most_Nm) / 1000;
     }
     const Eigen::Vector3d half_m =
         spidar::half_room_m(spidar::with_room(profile.geometry, can.half_room_m));

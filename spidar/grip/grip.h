@@ -15,7 +15,7 @@
 #include "spidar/device.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/grip/pose_trust.h"
-#include "spidar/limits/released_grip.h"
+#include "spidar/limits/released_turn.h"
 #include "spidar/limits/safety_limits.h"
 
 namespace spidar {
@@ -48,11 +48,17 @@ struct GripTraits {
   bool can_fly = true;      ///< the wrench can throw a grip that nobody holds
   double radius_m = 0;      ///< at which a torque counts as a force; 0: torques do not count
   double drive_lag_s = 0;   ///< from a command to the force that follows
+  GripBody body{};          ///< of a grip that turns
 
   /// The largest force limit, whoever sets it, with answers that take `late_s` longer than a tick:
   /// a grip that is let go must not be thrown.
   double most_force_N(double late_s = 0) const noexcept {
     return can_fly ? released_force_N(drive_lag_s, late_s)
+                   : std::numeric_limits<double>::infinity();
+  }
+  /// The same for the torque.
+  double most_torque_Nm(double late_s = 0) const noexcept {
+    return can_fly ? released_torque_Nm(body, radius_m, drive_lag_s, late_s)
                    : std::numeric_limits<double>::infinity();
   }
 };

@@ -120,7 +120,7 @@ StringGrip::StringGrip(const Profile& profile, StringDevice& device)
     : Grip(device),
       profile_(profile),
       device_(device),
-      traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s},
+      traits_{true, true, profile.geometry.grip_radius_m(), profile.drive_lag_s, profile.body()},
       abilities_(abilities_of(profile, traits_)),
       home_lengths_m_(string_lengths_m(profile.geometry, {})),
       watch_(profile),

@@ -6,12 +6,9 @@
 #include <algorithm>
 
 #include "core/default_limits.h"
+#include "spidar/profiles/grip_body.h"
 
 namespace spidar {
-
-/// Mass of a grip without a hand, from a hollow sphere to one with motors. No source states one.
-constexpr double kLightestGrip_kg = 0.034;
-constexpr double kHeaviestGrip_kg = 0.3;
 
 /// The speed and the energy that a released grip may reach, see GripBrake.
 constexpr double kReleased_m_s = 1.5;

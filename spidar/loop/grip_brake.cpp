@@ -152,7 +152,7 @@ FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy = heaviness(), earlier_m_s = yield_.stores_energy() ? kEarlier_m_s : 0;
   const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s;
   const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s) - earlier_m_s;
-  const double turn_J = 0.5 * most_inertia_kg_m2(radius_m_) * ahead_.angular_rad_s.squaredNorm();
+  const double turn_J = 0.5 * body_.most_kg_m2 * ahead_.angular_rad_s.squaredNorm();
   const double other_J = turn_J + (withstands_at(speed_m_s) ? 0 : stored_J_);
   const double left = std::sqrt(std::clamp(1 - other_J / kReleased_J, 0.0, 1.0));
   const double share = std::max(left, std::min(1.0, kSpeedError_m_s / from_m_s));
@@ -164,9 +164,9 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   ahead_ = motion.velocity_in(kLoop_s + drive_lag_s_);
   const double speed_m_s = motion.velocity().linear_m_s.norm();
   band_ = band_at(speed_m_s);
-  const double arm_m = surface_m(radius_m_);
+  const double arm_m = body_.surface_m;
   damper_ = {damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
-             damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(radius_m_))};
+             damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
   // The strings cannot do both: the tension that a torque takes is missing for the linear damper.
   allowed_ = {faded(fraction_ * wanted.force_N, ahead_.linear_m_s, 1, band_),
               left_at(ahead_.linear_m_s.norm(), band_) *
@@ -201,7 +201,7 @@ Eigen::Vector3d GripBrake::not_risen_N() const noexcept {
 
 bool GripBrake::acts() const noexcept {
   const double speed_m_s =
-      std::max(ahead_.linear_m_s.norm(), surface_m(radius_m_) * ahead_.angular_rad_s.norm());
+      std::max(ahead_.linear_m_s.norm(), body_.surface_m * ahead_.angular_rad_s.norm());
   return resting_s_ > 0 || ahead_.linear_m_s.norm() > kNoRise_m_s || left_at(speed_m_s, band_) < 1;
 }
 

@@ -9,6 +9,7 @@
 #include "spidar/grip/grip_motion.h"
 #include "spidar/loop/grip_yield.h"
 #include "spidar/loop/unheld_motion.h"
+#include "spidar/profiles/grip_body.h"
 
 namespace spidar {
 
@@ -41,8 +42,7 @@ struct FadeBand {
 /// it moves at no more than 0.45 m/s when a force of 3 N is reversed.
 class GripBrake {
  public:
-  /// `radius_m` is the lever at which a torque counts as a force.
-  GripBrake(double radius_m, double drive_lag_s) : radius_m_(radius_m), drive_lag_s_(drive_lag_s) {}
+  GripBrake(const GripBody& body, double drive_lag_s) : body_(body), drive_lag_s_(drive_lag_s) {}
 
   /// The pose is not known, or the device was opened: forgets the motion. A grip that was released
   /// stays so until kRest_s after its pose is known again.
@@ -84,7 +84,7 @@ class GripBrake {
   Eigen::Vector3d not_further_out(const Eigen::Vector3d& force_N) const noexcept;
   Eigen::Vector3d not_risen_N() const noexcept;
 
-  const double radius_m_;
+  const GripBody body_;
   const double drive_lag_s_;
   // What the strings do.
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/wrench_size.h"
-#include "spidar/limits/released_turn.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/loop/wrench_chain.h"
 
@@ -261,10 +260,7 @@ void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) no
   const bool fresh = is_fresh(record);
   const GripTraits& grip = grip_->traits();
   SafetyLimits set = limits_.as_set();
-  if (grip.can_fly) {
-    set.max_torque_Nm =
-        std::min(set.max_torque_Nm, released_torque_Nm(grip.radius_m, grip.drive_lag_s, late_s_));
-  }
+  set.max_torque_Nm = std::min(set.max_torque_Nm, grip.most_torque_Nm(late_s_));
   const double dt_s = fresh ? step.rises_s : step.falls_s;
   WrenchChain chain{set,
                     limits_.in_effect(),

@@ -202,7 +202,7 @@ class HapticLoop {
   Pose at_;            ///< after the last exchange
   touch::Rendering touch_;
   WrenchLimits safety_;
-  GripBrake brake_{grip_->traits().radius_m, grip_->traits().drive_lag_s};
+  GripBrake brake_{grip_->traits().body, grip_->traits().drive_lag_s};
   VibrationBudget vibration_{grip_->traits().radius_m};
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;

@@ -22,9 +22,9 @@ inline double stable_damping_1_s(double interval_s) {
 
 /// The damping of turns, N m s/rad: stable for a fifth of the smallest inertia, if the device
 /// answers in one tick of three.
-inline double turn_damping(double radius_m) {
+inline double turn_damping(const GripBody& body) {
   constexpr double kInertiaMargin = 5, kSlowest_s = 3e-3;
-  return stable_damping_1_s(kSlowest_s) / kInertiaMargin * least_inertia_kg_m2(radius_m);
+  return stable_damping_1_s(kSlowest_s) / kInertiaMargin * body.least_kg_m2;
 }
 
 }  // namespace spidar::brake

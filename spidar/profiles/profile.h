@@ -16,6 +16,7 @@
 
 #include "core/default_limits.h"
 #include "core/grip/string_geometry.h"
+#include "spidar/profiles/grip_body.h"
 
 namespace spidar {
 
@@ -90,8 +91,19 @@ struct Profile {
   /// back.
   double drive_lag_s = kDriveLag_s;
   bool drive_lag_known = false;  ///< stated by the file, or that of a simulation
+  /// Principal moments of inertia of the grip alone; zero: not stated.
+  Eigen::Vector3d moment_of_inertia_kg_m2 = Eigen::Vector3d::Zero();
   std::optional<CalibrationRecord> calibration;
   std::vector<Provenance> provenance;
+
+  /// How the grip turns: as stated, or else inferred.
+  GripBody body() const {
+    GripBody body = GripBody::inferred(geometry.grip_radius_m());
+    if (moment_of_inertia_kg_m2.isZero(0)) return body;
+    body.least_kg_m2 = moment_of_inertia_kg_m2.minCoeff();
+    body.most_kg_m2 = moment_of_inertia_kg_m2.maxCoeff();
+    return body;
+  }
 
   /// Lengths at which the counters are zero: those at the centre plus home_offset_m.
   StringVector zero_count_length_m() const {

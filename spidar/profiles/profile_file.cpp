@@ -146,6 +146,9 @@ constexpr double kMinLength_m = 1e-3;
 constexpr double kMin_m_per_count = 1e-6;
 constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
+// Less has a ball of 1 g and 16 mm, more one of steel and 15 cm: a mistaken unit.
+constexpr double kMinInertia_kg_m2 = 1e-7;
+constexpr double kMaxInertia_kg_m2 = 0.1;
 // Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
 constexpr double kMaxDac_V = 60;
 // Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
@@ -397,7 +400,8 @@ std::vector<Provenance> read_sources(const TomlField& sources) {
       row.field = fields[k].one_of({"geometry", "frame", "min_tension_N", "max_tension_N",
                                     "newtons_per_volt", "metres_per_count", "continuous_tension_N",
                                     "heating_time_s", "motor_sign", "encoder_sign", "home_offset_m",
-                                    "board", "dac_bits", "dac_max_V", "drive_lag_s"});
+                                    "board", "dac_bits", "dac_max_V", "drive_lag_s",
+                                    "moment_of_inertia_kg_m2"});
       provenance.push_back(row);
     }
   }
@@ -418,6 +422,28 @@ double at_most(const TomlField& field, double value, double most, const std::str
   return value;
 }
 
+/// One number for all axes, or the three principal moments.
+Eigen::Vector3d moments_of_inertia(const TomlField& field) {
+  if (field.is_array() && field.size() != 3) {
+    field.fail("has " + as_text(field.size()) +
+               " entries, must be one number, or the three principal moments of inertia");
+  }
+  Eigen::Vector3d moments;
+  for (int i = 0; i < 3; ++i) {
+    const TomlField entry = field.is_array() ? field[static_cast<size_t>(i)] : field;
+    moments[i] = at_most(entry, entry.positive(), kMaxInertia_kg_m2, "kg m²");
+    if (moments[i] < kMinInertia_kg_m2) {
+      entry.fail("is " + as_text(moments[i]) + ", must be at least " + as_text(kMinInertia_kg_m2) +
+                 "; the unit is kg m²");
+    }
+  }
+  // Equal moments are a sphere's; rounding must not turn a thin disc away.
+  if (moments.maxCoeff() > 0.5 * moments.sum() * (1 + 1e-9)) {
+    field.fail("has a moment above the sum of the other two, which no body has");
+  }
+  return moments;
+}
+
 CalibrationRecord read_calibration(const TomlField& in) {
   in.allow_only({"samples", "residual_m"});
   const TomlField residual = in["residual_m"];
@@ -431,7 +457,7 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   const toml::table document = parse_toml(text, path);
   const TomlField root(path, document);
   root.allow_only({"description", "board", "dac_bits", "dac_max_V", "drive_lag_s", "geometry",
-                   "strings", "calibration", "source"});
+                   "grip", "strings", "calibration", "source"});
   Profile profile;
   profile.name = name;
   const TomlField description = root["description"];
@@ -463,6 +489,11 @@ Profile parse_profile(const std::string& text, const std::string& path, const st
   }
   profile.geometry = read_geometry(root["geometry"]);
   read_strings(root["strings"], profile);
+  if (root.has("grip")) {
+    const TomlField grip = root["grip"];
+    grip.allow_only({"moment_of_inertia_kg_m2"});
+    profile.moment_of_inertia_kg_m2 = moments_of_inertia(grip["moment_of_inertia_kg_m2"]);
+  }
   if (root.has("calibration")) profile.calibration = read_calibration(root["calibration"]);
   if (root.has("source")) profile.provenance = read_sources(root["source"]);
   return profile;

@@ -85,6 +85,10 @@ std::string profile_text(const Profile& profile) {
   write_points(out, "exit", geometry.exit_m, static_cast<size_t>(geometry.count));
   write_points(out, "grip", geometry.grip_m, static_cast<size_t>(geometry.count));
   write_strings(out, profile);
+  if (const Eigen::Vector3d& moments = profile.moment_of_inertia_kg_m2; !moments.isZero(0)) {
+    out << "\n[grip]\nmoment_of_inertia_kg_m2 = "
+        << listed(3, [&](size_t i) { return moments[static_cast<Eigen::Index>(i)]; }) << '\n';
+  }
   if (profile.calibration) {
     out << "\n[calibration]\nsamples = " << profile.calibration->samples
         << "\nresidual_m = " << number(profile.calibration->residual_m) << '\n';

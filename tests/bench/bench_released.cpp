@@ -154,7 +154,7 @@ Worst play(const Profile& profile, const Case& what, const Point& p) {
   limits.max_force_N = what.limit_N > 0 ? what.limit_N : released_force_N(profile.drive_lag_s);
   if (!(what.limit_N > 0)) {
     limits.max_torque_Nm =
-        released_torque_Nm(profile.geometry.grip_radius_m(), profile.drive_lag_s);
+        released_torque_Nm(profile.body(), profile.geometry.grip_radius_m(), profile.drive_lag_s);
   }
   const auto loop =
       std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);

@@ -136,13 +136,14 @@ void print(double most, const char* unit, const Axis& axis) {
 void prove_released() {
   constexpr double kDamping_N_s_m = brake::kDamping_1_s * kLightestGrip_kg;
   constexpr double kWrong_m_s = brake::kSpeedError_m_s;
-  constexpr double kArm_m = 0.032;  // in all profiles, a shorter one turns with less
-  const double inertia_kg = least_inertia_kg_m2(kArm_m) / (kArm_m * kArm_m);
-  const double turn_N_s_m = brake::turn_damping(kArm_m) / (kArm_m * kArm_m);
+  constexpr double kArm_m = GripBody::kBall_m;
+  constexpr GripBody kBody = GripBody::inferred(kArm_m);
+  const double inertia_kg = kBody.least_kg_m2 / (kArm_m * kArm_m);
+  const double turn_N_s_m = brake::turn_damping(kBody) / (kArm_m * kArm_m);
   for (const double lag_s : {0.002, 0.01, 0.02, 0.045}) {
     for (const bool usual : {true, false}) {
       const double most_N = usual ? kDefaultForce_N : released_force_N(lag_s);
-      const double most_Nm = usual ? kDefaultTorque_Nm : released_torque_Nm(kArm_m, lag_s);
+      const double most_Nm = usual ? kDefaultTorque_Nm : released_torque_Nm(kBody, kArm_m, lag_s);
       for (const double mass_kg : {kLightestGrip_kg, 0.1}) {
         print(most_N, "N", {most_N, mass_kg, lag_s, kDamping_N_s_m, kWrong_m_s});
       }

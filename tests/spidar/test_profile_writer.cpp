@@ -34,6 +34,7 @@ void expect_same(const Profile& a, const Profile& b) {
   EXPECT_EQ(a.dac_max_V, b.dac_max_V);
   EXPECT_EQ(a.drive_lag_s, b.drive_lag_s);
   EXPECT_EQ(a.drive_lag_known, b.drive_lag_known);
+  EXPECT_EQ(a.moment_of_inertia_kg_m2, b.moment_of_inertia_kg_m2);
   ASSERT_EQ(a.geometry.count, b.geometry.count);
   for (size_t i = 0; i < static_cast<size_t>(a.geometry.count); ++i) {
     EXPECT_EQ(a.geometry.exit_m[i], b.geometry.exit_m[i]);
@@ -103,6 +104,22 @@ TEST(ProfileWriter, ALagIsWrittenWhenItIsKnown) {
   profile.drive_lag_known = true;
   save_profile(profile, path);
   expect_same(profile, load_profile(path));
+}
+
+/// What is not stated is inferred, and does not become stated by being written.
+TEST(ProfileWriter, AMomentOfInertiaIsWrittenWhenItIsStated) {
+  const Folder folder;
+  const std::string path = folder.file("copy.toml");
+  Profile profile = load_profile("spidar-gcc");
+  EXPECT_EQ(profile_text(profile).find("moment_of_inertia_kg_m2"), std::string::npos);
+  // A solid sphere of 34 g and 32 mm, and 300 g at the 32.5 mm at which the strings end.
+  EXPECT_NEAR(profile.body().least_kg_m2, 0.4 * 0.034 * 0.032 * 0.032, 1e-12);
+  EXPECT_NEAR(profile.body().most_kg_m2, 0.3 * 0.0325 * 0.0325, 1e-12);
+  profile.moment_of_inertia_kg_m2 = {3e-5, 2e-5, 4e-5};
+  save_profile(profile, path);
+  expect_same(profile, load_profile(path));
+  EXPECT_EQ(load_profile(path).body().least_kg_m2, 2e-5);
+  EXPECT_EQ(load_profile(path).body().most_kg_m2, 4e-5);
 }
 
 TEST(ProfileWriter, CalibrationComesBack) {

@@ -179,7 +179,7 @@ TEST(ReleasedGrip, ItsTurnComesToRest) {
 TEST(ReleasedTurn, TheLargestTorqueGivesALightGripTheSpeedOfTheLargestForce) {
   // Whatever the radius is, the surface of a sphere of 34 g gets no faster than kReleased_m_s.
   for (const double radius_m : {0.01, 0.02, 0.03}) {
-    const double torque_Nm = released_torque_Nm(radius_m, 0.002);
+    const double torque_Nm = released_torque_Nm(GripBody::inferred(radius_m), radius_m, 0.002);
     const double turn_rad_s =
         torque_Nm * (kNoticed_s + 0.002) / (0.4 * kLightestGrip_kg * radius_m * radius_m);
     EXPECT_GE(turn_rad_s * radius_m, kReleased_m_s * (1 - 1e-12)) << radius_m;
@@ -187,15 +187,17 @@ TEST(ReleasedTurn, TheLargestTorqueGivesALightGripTheSpeedOfTheLargestForce) {
         turn_rad_s * (kNoticed_s + kReversed * 0.002) / (kNoticed_s + 0.002);
     EXPECT_LE(reversed_rad_s * radius_m, kReleased_m_s * (1 + 1e-12)) << radius_m;
   }
-  EXPECT_LT(released_torque_Nm(0.03, 0.002, 1e-3), released_torque_Nm(0.03, 0.002));
-  EXPECT_EQ(released_torque_Nm(0, 0.002), std::numeric_limits<double>::infinity());
+  const GripBody body = GripBody::inferred(0.03);
+  EXPECT_LT(released_torque_Nm(body, 0.03, 0.002, 1e-3), released_torque_Nm(body, 0.03, 0.002));
+  EXPECT_EQ(released_torque_Nm({}, 0, 0.002), std::numeric_limits<double>::infinity());
 }
 
 TEST(ReleasedTurn, NoTorqueAboveThatIsCommanded) {
   const Profile profile = load_profile(kDefaultProfile);
   SafetyLimits limits;
   limits.max_torque_Nm = 1;
-  const double most_Nm = released_torque_Nm(profile.geometry.grip_radius_m(), profile.drive_lag_s);
+  const double most_Nm =
+      released_torque_Nm(profile.body(), profile.geometry.grip_radius_m(), profile.drive_lag_s);
   const Film film = [](double) { return Wrench{{0, 0, 0}, {0, 0, 1}}; };
   PlayedGrip grip(profile, grip_model_of(profile), film, limits);
   double largest_Nm = 0;
@@ -247,7 +249,7 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
         Eigen::AngleAxisd(1.1e-3 * brake::kFastest_rad_s * i, Eigen::Vector3d::UnitZ());
     spins.update(pose, i * kTick_ns);
   }
-  GripBrake brake(0.03, 0);
+  GripBrake brake(GripBody::inferred(0.03), 0);
   const auto is_held_after = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       brake.see(Eigen::Vector3d::Zero(), spins, 0, 1e-3);
@@ -271,7 +273,7 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
 TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
   for (const bool is_faster : {false, true}) {
     GripMotion motion;
-    GripBrake brake(0.03, 0);
+    GripBrake brake(GripBody::inferred(0.03), 0);
     for (int i = 0; i < 100; ++i) {
       Pose pose;
       pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
@@ -285,7 +287,7 @@ TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
 }
 
 TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {
-  GripBrake brake(0.03, 0);
+  GripBrake brake(GripBody::inferred(0.03), 0);
   const Wrench wanted{{1, 0, 0}, {0, 0, 0}};
   const auto run = [&](double seconds, bool knows_pose) {
     Wrench left;

@@ -135,6 +135,9 @@ struct SimulatedDevice::Impl {
 GripModel grip_model_of(const Profile& profile) {
   GripModel model;
   model.motor_time_constant_s = profile.drive_lag_s;
+  if (const Eigen::Vector3d& moments = profile.moment_of_inertia_kg_m2; !moments.isZero(0)) {
+    model.inertia_kg_m2 = moments.mean();
+  }
   return model;
 }
 
