@@ -124,9 +124,7 @@ StringGrip::StringGrip(const Profile& profile, StringDevice& device)
       abilities_(abilities_of(profile, traits_)),
       home_lengths_m_(string_lengths_m(profile.geometry, {})),
       watch_(profile),
-      tension_command_(profile),
-      tension_slew_(profile),
-      heat_(profile) {}
+      chain_(profile) {}
 
 StringGrip::StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device)
     : StringGrip(profile, *device) {
@@ -136,18 +134,15 @@ StringGrip::StringGrip(const Profile& profile, std::unique_ptr<StringDevice> dev
 /// Only the home position of the grip is known.
 void StringGrip::open() {
   device_.open();
-  acknowledged_N_.setZero();
   watch_.reset();
   reading_.motion.reset();
-  tension_command_.reset();
-  tension_slew_.reset(acknowledged_N_);
+  chain_.reset();
   report();
 }
 
 void StringGrip::advance(double passed_s) noexcept {
-  // The last acknowledged tensions have acted until now.
-  heat_.update(acknowledged_N_, passed_s);
-  reading_.motor_heat = heat_.hottest();
+  chain_.heat(passed_s);
+  reading_.motor_heat = chain_.hottest();
 }
 
 void StringGrip::check_age(int64_t now_ns) noexcept {
@@ -155,53 +150,17 @@ void StringGrip::check_age(int64_t now_ns) noexcept {
   reading_.pose_fault = watch_.fault();
 }
 
-/// Whether a change of the wrench accelerates the grip.
-bool StringGrip::pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept {
-  const GripVelocity now = reading_.motion.velocity_in(0);
-  return change.head<3>().dot(now.linear_m_s) + change.tail<3>().dot(now.angular_rad_s) > 0;
-}
-
-/// Where the strings cannot give the wrench that the brake wants, what they give instead might push
-/// the grip: a fraction of what is added to the tensions at rest gives it no more power than the
-/// wrench would.
-StringVector StringGrip::without_push(const StructureMatrix& W, const StringVector& tension_N,
-                                      const Wrench& wrench) const noexcept {
-  const GripVelocity then = reading_.motion.velocity_in(profile_.drive_lag_s);
-  Eigen::Matrix<double, 6, 1> motion;
-  motion << then.linear_m_s, then.angular_rad_s;
-  const StringVector rest_N = profile_.min_tension_N();
-  const double added_W = motion.dot(W * (tension_N - rest_N));
-  const double most_W = std::max(0.0, motion.dot(wrench.stacked()));
-  if (!(added_W > most_W)) return tension_N;
-  return rest_N + most_W / added_W * (tension_N - rest_N);
-}
-
 void StringGrip::pull(const GripCommand& command) noexcept {
-  tension_command_.leave_out(watch_.faulty_string());
   const StructureMatrix W = structure_matrix(profile_.geometry, watch_.pose());
-  StringVector wanted_N;
-  if (command.fresh) {
-    tension_command_.solve(W, command.wrench, heat_.limit_N());
-    wanted_N = tension_command_.limit(W, command.limits, watch_.pose(), reading_.motion);
-  } else {
-    // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
-    // tensions would not have enough time left to fall.
-    if (command.power > 0) tension_command_.begin_fade(acknowledged_N_ / command.power);
-    const double pace = watch_.trusted() ? 1 : TensionCommand::kLostPace;
-    wanted_N = tension_command_.fade(command.wrench, pace);
-  }
-  if (command.brakes) wanted_N = without_push(W, wanted_N, command.wrench);
-  const StringVector all_N = command.power * wanted_N;
-  if (command.brakes && !pushes(W * (all_N - acknowledged_N_))) tension_slew_.reset(all_N);
-  const StringVector limited_N = tension_slew_.apply(all_N, profile_, command.dt_s);
-  reading_.tension_N = bound_tensions(limited_N, profile_);
+  reading_.tension_N = chain_.apply(
+      {command, W, watch_.pose(), reading_.motion, watch_.trusted(), watch_.faulty_string()});
   const Eigen::Matrix<double, 6, 1> delivered = W * reading_.tension_N;
   reading_.delivered = {delivered.head<3>(), delivered.tail<3>()};
   const Eigen::Matrix<double, 6, 1> at_rest = command.power * (W * profile_.min_tension_N());
   reading_.at_rest = {at_rest.head<3>(), at_rest.tail<3>()};
   reading_.stored_J = profile_.min_tension_N().dot(
       string_lengths_m(profile_.geometry, watch_.pose()) - home_lengths_m_);
-  reading_.held_back = tension_command_.held_back();
+  reading_.held_back = chain_.held_back();
 }
 
 LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
@@ -209,12 +168,10 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
   DeviceReading answer;
   const LinkFault fault = device_.exchange(to_volts(reading_.tension_N, profile_), answer);
   if (fault == LinkFault::kNone) {
-    acknowledged_N_ = reading_.tension_N;
+    chain_.acknowledge(reading_.tension_N);
     update(answer, command);
   } else {
-    // The motors may not have received this tick.
-    reading_.tension_N = acknowledged_N_;
-    tension_slew_.reset(acknowledged_N_);
+    reading_.tension_N = chain_.undo();
     watch_.miss(command.now_ns);
   }
   report();

@@ -14,7 +14,7 @@
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
 #include "spidar/grip/reading_gate.h"
-#include "spidar/grip/tension_command.h"
+#include "spidar/grip/tension_chain.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
@@ -113,9 +113,6 @@ class StringGrip final : public Grip {
   GripAbilities abilities() const noexcept override { return abilities_; }
 
  private:
-  bool pushes(const Eigen::Matrix<double, 6, 1>& change) const noexcept;
-  StringVector without_push(const StructureMatrix& W, const StringVector& tension_N,
-                            const Wrench& wrench) const noexcept;
   void pull(const GripCommand& command) noexcept;
   void update(const DeviceReading& answer, const GripCommand& command) noexcept;
   void report() noexcept;
@@ -128,10 +125,7 @@ class StringGrip final : public Grip {
   const StringVector home_lengths_m_;  ///< of the strings while the grip is in its home position
   GripReading reading_;
   GripWatch watch_;
-  TensionCommand tension_command_;
-  TensionSlew tension_slew_;
-  MotorHeat heat_;
-  StringVector acknowledged_N_ = StringVector::Zero();  ///< of the last command that was answered
+  TensionChain chain_;
 };
 
 }  // namespace spidar

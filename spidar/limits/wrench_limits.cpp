@@ -63,13 +63,9 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   stale_before_ = stale_;
   const double before = stale_.fraction();
   const double fraction = stale_.apply(fresh, dt_s, limits);
-  if (fresh) {
-    const bool is_finite = wanted.is_finite();
-    if (!is_finite) ++rejected_;
-    const Wrench within = is_finite ? limit_total(wanted, limits) : Wrench();
-    return last_ = limit_slew(last_, fraction * within, dt_s, limits);
-  }
+  if (fresh) return last_ = limit_slew(last_, fraction * wanted, dt_s, limits);
   const double left = before > 0 ? fraction / before : 0;
+  // A limit that was lowered is reached on the way to rest, too.
   const Wrench within = limit_total(left * last_, limits);
   const auto step = [&](double size, double max_slew) {
     return std::max((1 - left) * size, non_negative(max_slew * dt_s));

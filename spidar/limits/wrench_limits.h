@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The last limits of a wrench, after vibration budget and brake: finite → limit → slew → stale.
-/// None of them allocates, locks or throws.
+/// The size of a wrench, and how fast it changes: steps of WrenchChain. None of it allocates, locks
+/// or throws.
 #pragma once
-
-#include <cstdint>
 
 #include "core/wrench.h"
 #include "spidar/limits/safety_limits.h"
@@ -40,7 +38,7 @@ class StaleRamp {
   double way_ = 0;  ///< 0 … 1, in ramp_s
 };
 
-/// The four steps in a row, from a wanted wrench to the commanded one.
+/// The rates of a wrench: the ramp and the slew limit.
 ///
 /// On the way to rest, the stale fraction is the last step, so that no slew setting, however low,
 /// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
@@ -48,8 +46,8 @@ class StaleRamp {
 /// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
 class WrenchLimits {
  public:
-  /// Returns the wrench to apply, `dt_s` after the last call. If not `fresh`, `wanted` is ignored,
-  /// and the wrench applied last ramps to exactly zero.
+  /// Returns the wrench to apply, `dt_s` after the last call. `wanted` is within `limits`. If not
+  /// `fresh`, it is ignored, and the wrench applied last ramps to exactly zero.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
   /// The next apply() continues from `at`, to which the brake has reduced the last result.
@@ -63,14 +61,10 @@ class WrenchLimits {
   /// Whether commands are fresh, and have been for the whole ramp.
   bool is_ramped() const noexcept { return stale_.fraction() >= 1; }
 
-  /// Sets the state to rest, as after construction. The count of rejected wrenches is kept.
+  /// Sets the state to rest, as after construction.
   void reset() noexcept;
 
-  /// How many wanted wrenches were not finite. Each counted as zero.
-  uint64_t rejected() const noexcept { return rejected_; }
-
  private:
-  uint64_t rejected_ = 0;
   Wrench last_;
   StaleRamp stale_;
   Wrench last_before_;  ///< the last apply()

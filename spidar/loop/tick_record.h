@@ -73,7 +73,7 @@ struct TickRecord : GripReport {
   /// The wrench from the timeline, plus the contact force and the callback's wrench; zero without
   /// any of them.
   Wrench wanted;
-  /// The wrench after the four steps of wrench_limits.h. If not acknowledged, the one of the last
+  /// The wrench after the steps of WrenchChain. If not acknowledged, the one of the last
   /// acknowledged tick, within the limits of this one.
   Wrench commanded;
   bool acknowledged = true;  ///< the device has answered

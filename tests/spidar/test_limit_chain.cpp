@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The list of the limits of a wrench is that of the page.
+/// The lists of the limits of a tick are those of the page.
+#include "spidar/grip/tension_chain.h"
 #include "spidar/loop/wrench_chain.h"
 #include "tests/support/test.h"
 
@@ -16,17 +17,25 @@ std::string page() {
   return text;
 }
 
-TEST(WrenchChain, ThePageListsWhatTheCodeDoes) {
+/// The list of a chain as the page has it, in Markdown.
+template <typename Chain>
+std::string listed() {
   std::string list;
-  for (const WrenchChain::Step& step : WrenchChain::kSteps) {
-    const auto number = 1 + &step - WrenchChain::kSteps.data();
-    list += std::to_string(number) + ". **" + step.name + "**: " + step.limit + ", " + step.reason +
-            ' ';
+  int number = 0;
+  for (const auto& step : Chain::kSteps) {
+    list += std::to_string(++number) + ". **" + step.name + "**: " + step.limit + ", " +
+            step.reason + ' ';
   }
+  return list;
+}
+
+TEST(LimitChains, ThePageListsWhatTheCodeDoes) {
   const std::string text = page();
-  const size_t at = text.find(list);
-  ASSERT_NE(at, std::string::npos) << "docs/architecture.md lacks, in this order:\n" << list;
-  EXPECT_FALSE(std::isdigit(text[at + list.size()])) << "the page goes on with the list";
+  for (const std::string& list : {listed<WrenchChain>(), listed<TensionChain>()}) {
+    const size_t at = text.find(list);
+    ASSERT_NE(at, std::string::npos) << "docs/architecture.md lacks, in this order:\n" << list;
+    EXPECT_FALSE(std::isdigit(text[at + list.size()])) << "the page goes on with the list " << list;
+  }
 }
 
 }  // namespace

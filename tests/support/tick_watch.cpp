@@ -167,7 +167,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
 std::string TickWatch::fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
                                       double most_N) const {
   constexpr double kDamping_N_s_m = brake::kDamping_1_s * kHeaviestGrip_kg;
-  constexpr double kFrom_m_s = brake::kHeavyFrom_m_s - brake::kEarlier_m_s;
+  constexpr double kFrom_m_s = brake::kSpeedError_m_s;  // no band of the brake begins below
   const Eigen::Vector3d& now_N = record.commanded.force_N;
   const Eigen::Vector3d& before_N = last_.commanded.force_N;
   const Eigen::Vector3d velocity_m_s = motion_.velocity_in(0).linear_m_s;

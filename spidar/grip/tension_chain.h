@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright 2026 the gst-spidar authors
+/// From the commanded wrench to the tension of each string: what protects the motors, and what the
+/// strings must not add.
+#pragma once
+
+#include <array>
+
+#include "core/grip/string_geometry.h"
+#include "spidar/grip/grip.h"
+#include "spidar/grip/grip_motion.h"
+#include "spidar/grip/tension_command.h"
+#include "spidar/profiles/profile.h"
+
+namespace spidar {
+
+/// The limits of tensions, with their state. Nothing allocates, locks or throws.
+class TensionChain {
+ public:
+  struct Tick {
+    const GripCommand& command;
+    const StructureMatrix& W;  ///< of `pose`
+    const Pose& pose;
+    const GripMotion& motion;
+    bool trusted;  ///< the pose is
+    int left_out;  ///< string that is broken or slack; −1: none
+  };
+  /// Returns what it leaves of the tensions that the step before it has left. The chain runs its
+  /// steps in the order of their list, and docs/architecture.md has the same list (test
+  /// `limit_chain`).
+  struct Step {
+    const char* name;
+    const char* limit;
+    const char* reason;  ///< for the limit, or for its place
+    StringVector (TensionChain::*leave)(const StringVector&, const Tick&) noexcept;
+  };
+  static const std::array<Step, 6> kSteps;
+
+  explicit TensionChain(const Profile& profile)
+      : profile_(profile), command_(profile), slew_(profile), heat_(profile) {}
+
+  /// Takes the command of `tick` through all steps.
+  StringVector apply(const Tick& tick) noexcept;
+  /// The motors have received `tension_N`, the result of the last apply().
+  void acknowledge(const StringVector& tension_N) noexcept { acknowledged_N_ = tension_N; }
+  /// They may not have received it. Returns what they received last.
+  const StringVector& undo() noexcept {
+    slew_.reset(acknowledged_N_);
+    return acknowledged_N_;
+  }
+  /// The motors have pulled for `passed_s`.
+  void heat(double passed_s) noexcept { heat_.update(acknowledged_N_, passed_s); }
+  /// Starts with motors that are off; they stay as warm as they are.
+  void reset() noexcept;
+
+  /// Heat of the warmest motor.
+  double hottest() const noexcept { return heat_.hottest(); }
+  /// The strings give less than the command: one is left out, or a motor is warm.
+  bool held_back() const noexcept { return command_.held_back(); }
+
+ private:
+  StringVector strings(const StringVector& tension_N, const Tick& tick) noexcept;
+  StringVector delivered(const StringVector& tension_N, const Tick& tick) noexcept;
+  StringVector push(const StringVector& tension_N, const Tick& tick) noexcept;
+  StringVector power(const StringVector& tension_N, const Tick& tick) noexcept;
+  StringVector pace(const StringVector& tension_N, const Tick& tick) noexcept;
+  StringVector range(const StringVector& tension_N, const Tick& tick) noexcept;
+
+  const Profile profile_;
+  TensionCommand command_;
+  TensionSlew slew_;
+  MotorHeat heat_;
+  StringVector acknowledged_N_ = StringVector::Zero();  ///< of the last command that was answered
+};
+
+}  // namespace spidar
