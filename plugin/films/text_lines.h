@@ -3,14 +3,13 @@
 /// The lines of text files that people or their programs have written.
 #pragma once
 
-#include <fstream>
-#include <memory>
+#include <cstring>
+#include <gio/gio.h>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
-#include <glib.h>
+#include "plugin/gobject/ref.h"
 
 namespace spidar {
 
@@ -23,41 +22,42 @@ class TextLines {
 
   /// Throws std::runtime_error, as next() does, when the file cannot be read.
   explicit TextLines(const std::string& path) : path_(path) {
-    char mark[3];
-    std::ifstream file(path, std::ios::binary);
-    file.read(mark, sizeof mark);
-    const std::string begin(mark, static_cast<size_t>(file.gcount()));
-    has_mark_ = begin == "\xEF\xBB\xBF";
-    const bool is_utf16 = begin.rfind("\xFF\xFE", 0) == 0 || begin.rfind("\xFE\xFF", 0) == 0;
-    if (!is_utf16 && begin.find('\0') != std::string::npos) {
-      throw std::runtime_error(path + ": " + kOtherText);
+    const Ref<GFile> file(g_file_new_for_path(path.c_str()));
+    Ref<GInputStream> text(G_INPUT_STREAM(g_file_read(file.get(), nullptr, &error_)));
+    check();
+    text.reset(g_buffered_input_stream_new(Ref<GInputStream>(std::move(text)).get()));
+    char mark[3] = "";
+    g_buffered_input_stream_fill(G_BUFFERED_INPUT_STREAM(text.get()), -1, nullptr, &error_);
+    check();
+    g_buffered_input_stream_peek(G_BUFFERED_INPUT_STREAM(text.get()), mark, 0, sizeof mark);
+    if (std::memcmp(mark, "\xEF\xBB\xBF", 3) == 0) {
+      g_input_stream_skip(text.get(), 3, nullptr, nullptr);
+    } else if (std::memcmp(mark, "\xFF\xFE", 2) == 0 || std::memcmp(mark, "\xFE\xFF", 2) == 0) {
+      const Ref<GCharsetConverter> to_utf8(g_charset_converter_new("UTF-8", "UTF-16", nullptr));
+      text.reset(g_converter_input_stream_new(Ref<GInputStream>(std::move(text)).get(),
+                                              G_CONVERTER(to_utf8.get())));
     }
-    GError* error = nullptr;
-    channel_.reset(g_io_channel_new_file(path.c_str(), "r", &error));
-    check(error);
-    g_io_channel_set_encoding(channel_.get(), is_utf16 ? "UTF-16" : nullptr, nullptr);
+    lines_.reset(g_data_input_stream_new(text.get()));
+    g_data_input_stream_set_newline_type(lines_.get(), G_DATA_STREAM_NEWLINE_TYPE_ANY);
   }
 
   /// Without its end; nothing after the last one.
   std::optional<std::string> next() {
-    g_autofree gchar* line = nullptr;
     gsize size = 0;
-    GError* error = nullptr;
-    g_io_channel_read_line(channel_.get(), &line, nullptr, &size, &error);
-    check(error);
-    if (!line) return std::nullopt;
-    return std::string(line + (std::exchange(has_mark_, false) ? 3 : 0), line + size);
+    g_autofree gchar* line = g_data_input_stream_read_line(lines_.get(), &size, nullptr, &error_);
+    check();
+    return line ? std::optional(std::string(line, size)) : std::nullopt;
   }
 
  private:
-  void check(GError* error) const {
-    const std::unique_ptr<GError, void (*)(GError*)> owned(error, g_error_free);
+  void check() {
+    g_autoptr(GError) error = g_steal_pointer(&error_);
     if (error) throw std::runtime_error(path_ + ": cannot be read: " + error->message);
   }
 
   const std::string path_;
-  bool has_mark_ = false;
-  std::unique_ptr<GIOChannel, void (*)(GIOChannel*)> channel_{nullptr, g_io_channel_unref};
+  GError* error_ = nullptr;
+  Ref<GDataInputStream> lines_;
 };
 
 }  // namespace spidar

@@ -92,7 +92,9 @@ class CsvReader {
   bool add_line() {
     const auto line = lines_.next();
     line_ += line ? 1 : 0;
-    if (line && !g_utf8_validate(line->c_str(), -1, nullptr)) fail(TextLines::kOtherText);
+    if (line && !g_utf8_validate_len(line->data(), line->size(), nullptr)) {
+      fail(TextLines::kOtherText);
+    }
     record_ += line.value_or("");
     return line.has_value();
   }

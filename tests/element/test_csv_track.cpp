@@ -131,7 +131,9 @@ TEST_F(CsvTrack, WhatIsWrongIsNamedWithItsLine) {
            {"t,fx\n0,1\n1,-1e39\n", ", line 3: \"-1e39\" is too large"},
            // Text of older programs, and what is none.
            {"t,fx,Kraft f\xFCr x\n0,1,1\n", ", line 1: is neither UTF-8 nor marked as UTF-16"},
-           {utf16("t,fx\n0,1\n"), ": is neither UTF-8 nor marked as UTF-16"},
+           {"\xFF\xFE", ", line 0: the table has no rows"},
+           {"\xFE\xFF\0"s, ": cannot be read"},
+           {utf16("t,fx\n0,1\n"), ", line 1: is neither UTF-8 nor marked as UTF-16"},
            {"\xFF\xFE"s + utf16("t,fx\n0,1\n") + "\xD8", ": cannot be read"},
        }) {
     EXPECT_EQ(refusal(text).substr(0, said.size()), said) << text << "\n" << refusal(text);
