@@ -292,14 +292,17 @@ void run_films(char** films) {
   const bool has_sink = std::any_of(named.begin(), named.end(), [](const std::string& word) {
     return word.rfind("--videosink", 0) == 0;
   });
-  // The player would crash.
-  if (!has_sink && !spidar::follow::has_display()) {
-    fail(kCannotRun,
-         "there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, as in a "
-         "remote session; without a picture, it is felt with --videosink=\"fakesink sync=true\" "
-         "behind it");
+  // Without a screen, gst-play-1.0 of GStreamer 1.22 ends with SIGSEGV.
+  const bool has_screen = spidar::follow::has_display();
+  if (!has_sink && !has_screen) {
+    std::fputs(
+        "spidar-feel: there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, "
+        "as in a remote session; it is felt without its picture. What is felt is also written to a "
+        "file: spidar-feel device=none trace=film.csv -- FILM\n",
+        stderr);
+    named.emplace_back("--videosink=fakesink sync=true");
   }
-  const std::string changed = has_sink ? "" : spidar::avoid_software_gl();
+  const std::string changed = has_sink || !has_screen ? "" : spidar::avoid_software_gl();
   if (!changed.empty()) std::fprintf(stderr, "spidar-feel: %s\n", changed.c_str());
   std::vector<char*> words{const_cast<char*>(kPlayer)};
   for (std::string& film : named) words.push_back(film.data());
