@@ -27,7 +27,7 @@ enum class LinkFault : uint8_t {
   kWrongEcho,    ///< the board echoes D/A values that were not sent
   kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended, for example because it was killed
-  kStoodStill,   ///< this process stood still, so that the guardian set the motors to zero
+  kStoodStill,   ///< this process stood still, so that the motors were set to zero
   kRefused,      ///< the kernel's driver refuses the request
 };
 constexpr size_t kLinkFaults = 13;

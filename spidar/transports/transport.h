@@ -45,7 +45,7 @@ class Transport {
   /// packets may have arrived.
   ///
   /// The newest state counts: what was sent before the packets that it should answer is dropped.
-  /// Where that has no end, or happens in more exchanges than not, kMostUnasked times, nobody knows
+  /// Where that has no end, or where kMostUnasked more exchanges had it than had not, nobody knows
   /// how old an answer is, and the result is kBabble.
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept {
