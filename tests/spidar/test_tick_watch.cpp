@@ -178,7 +178,7 @@ TEST(TickWatch, TellsInATraceWhenTheBrakeActs) {
   };
   for (const Case& c : {Case{1, true, 0.2, -2, nullptr}, Case{1, false, 0.2, -2, "too fast"},
                         Case{1, true, -2, 2, "the brake pushes the grip"},
-                        Case{0.04, true, 0.2, -2, "a grip that is slow"}}) {
+                        Case{0.01, true, 0.2, -2, "a grip that is slow"}}) {
     const TemporaryFolder folder;
     Rows rows(folder, c.speed_m_s);
     for (int i = 0; i < 10; ++i) rows.add(c.from_N, true, c.brakes);
