@@ -10,7 +10,7 @@
 namespace spidar {
 namespace {
 
-constexpr double kMaxGain = 10;
+constexpr double kMaxRuleGain = 10;
 /// A day, more than any film; its ns fit into a double exactly.
 constexpr double kLongest_s = 86400;
 constexpr size_t kMaxQuoted = 40;
@@ -209,7 +209,7 @@ class RuleParser {
   }
   void parse_gain() {
     const std::optional<double> gain = number_of(word());
-    if (!gain || *gain < 0 || *gain > kMaxGain) {
+    if (!gain || *gain < 0 || *gain > kMaxRuleGain) {
       wrong(rule_.line, quote(word()) + " is not a gain from 0 to 10");
     }
     rule_.gain = *gain;
