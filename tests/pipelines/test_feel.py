@@ -7,6 +7,7 @@ import json
 import pathlib
 import shutil
 import signal
+import statistics
 import struct
 import subprocess
 import sys
@@ -134,9 +135,11 @@ class Feel(FeelCase):
         for films, along, sign in (((turned,), "y", 1), ((turned, self.films / "stored.mov"), "x", -1)):
             self.run_all([FEEL, "device=none", "motion=mean", f"trace={trace}", "--", *QUIET, "--videosink=fakesink sync=true", *films])
             with open(trace, newline="", encoding="ascii") as file:  # of the last film
-                row = [row for row in csv.DictReader(file) if row["force_x_N"]][-2]
+                rows = [row for row in csv.DictReader(file) if row["force_x_N"]]
             for axis in ("x", "y"):
-                velocity_px_s, force_N = float(row[f"velocity_{axis}_px_s"]), float(row[f"force_{axis}_N"])
+                # Of most frames: a busy machine leaves some out, after which the measuring begins anew.
+                velocity_px_s, force_N = (statistics.median(float(row[column]) for row in rows)
+                                          for column in (f"velocity_{axis}_px_s", f"force_{axis}_N"))
                 if axis == along:
                     self.assertLess(velocity_px_s, -20)  # of 50 px/s
                     self.assertGreater(sign * force_N, .1)  # y of a force points up
