@@ -14,6 +14,7 @@ python3-serial.
 """
 import argparse
 import contextlib
+import fcntl
 import importlib
 import math
 import os
@@ -74,7 +75,7 @@ class Output:
 
     def __init__(self, options):
         """Raises ValueError for what cannot be meant, and OSError."""
-        self.options, self.sent, self.lost, self.unsaid = options, 0, "", ""
+        self.options, self.sent, self.lost, self.unsaid, self.failed = options, 0, "", "", ""
         self.open()
         self.is_open = True
 
@@ -210,6 +211,8 @@ class Trace:
 
     def __init__(self, pipe):
         self.pipe, self.text, self.columns = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK), b"", []
+        # A second of rows, each less than 1000 bytes: else old ones would wait behind those that are read at 1 Hz.
+        fcntl.fcntl(self.pipe, fcntl.F_SETPIPE_SZ, 1 << 20)
 
     def newest(self):
         """The last row since the call before, by the names of the columns; or nothing."""
@@ -234,6 +237,8 @@ def forward(trace, ended, output):
                 output.send([options.scale * float(row[AXES[axis]]) / FULL[axis[0]] for axis in options.axes])
             elif now_s > row_s + STALL_S:
                 output.send([0.0] * len(options.axes))
+    except (KeyError, ValueError) as error:
+        output.failed = f"the trace cannot be read: {error!r}"
     finally:
         output.rest()
 
@@ -275,7 +280,7 @@ def parse():
     if unknown:
         parser.error(f"--axes: {', '.join(unknown)} is none of {', '.join(AXES)}")
     if not 0 <= options.control <= 120 - len(options.axes) or not 1 <= options.channel <= 16:
-        parser.error("--control is from 0 to 119, and --channel from 1 to 16")
+        parser.error(f"--control is from 0 to {120 - len(options.axes)}, and --channel from 1 to 16")
     most = most_rate(options) if options.baud > 0 else 0
     if not most:
         parser.error(f"--baud {options.baud}: carries no message a second; name the board's, such as 115200")
@@ -344,7 +349,7 @@ def main():
             player.set_state(Gst.State.NULL)
     if not output.unsaid:
         say(f"{output.sent} messages sent to {options.output}, the last one the rest", 1)
-    sys.exit("\n".join(filter(None, [wrong, output.unsaid])) or 0)
+    sys.exit("\n".join(filter(None, [wrong, output.failed, output.unsaid])) or 0)
 
 
 if __name__ == "__main__":

@@ -30,10 +30,10 @@ ninja -C build
 for ((n = 0; n < busy; ++n)); do
     while kill -0 $$ 2>/dev/null; do :; done &
 done
-# shellcheck disable=SC2046  # one word for each process
-trap 'kill $(jobs -p)' EXIT
-
 failures=$(mktemp)
+# shellcheck disable=SC2046  # one word for each process
+trap 'kill $(jobs -p); rm -f "$failures"' EXIT
+
 for ((round = 1; round <= rounds; ++round)); do
     rm -f build/*.xml "build/meson-logs/repeat-$round".*
     # A timeout is for what hangs: ten times that of the test. As many tests at once as in run.sh.

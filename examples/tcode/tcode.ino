@@ -45,11 +45,11 @@ void setup() {
 void loop() {
   while (Serial.available()) {
     const char c = Serial.read();
-    if (c != '\n' && length < sizeof line - 1) {
-      line[length++] = c;
+    if (c != '\n') {
+      if (length < sizeof line) line[length++] = c;
       continue;
     }
-    line[c == '\n' ? length : 0] = 0;  // one that is too long is no command
+    line[length < sizeof line ? length : 0] = 0;  // one that is too long is no command
     length = 0;
     obey(line);
     heard_ms = millis();

@@ -43,11 +43,12 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// What is not in UTF-8 is by an old Windows.
+/// What is not in UTF-8 is by an old Windows, or a name of bytes that no encoding explains.
 std::string utf8_of(const std::string& text) {
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
-  return taken(g_convert_with_fallback(text.c_str(), -1, "UTF-8", "WINDOWS-1252", nullptr, nullptr,
-                                       nullptr, nullptr));
+  const std::string converted = taken(g_convert_with_fallback(
+      text.c_str(), -1, "UTF-8", "WINDOWS-1252", nullptr, nullptr, nullptr, nullptr));
+  return converted.empty() ? text : converted;
 }
 
 /// Lines that are no comment, or in PLS what "File1 =" and so on name, by their numbers; nothing

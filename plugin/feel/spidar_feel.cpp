@@ -297,8 +297,8 @@ void run_films(char** films) {
   if (!has_sink && !has_screen) {
     std::fputs(
         "spidar-feel: there is no screen for the film: neither WAYLAND_DISPLAY nor DISPLAY is set, "
-        "as in a remote session; it is felt without its picture. What is felt is also written to a "
-        "file: spidar-feel device=none trace=film.csv -- FILM\n",
+        "as in a remote session; it is felt without its picture. To write the force to a file "
+        "instead: spidar-feel device=none trace=film.csv -- FILM\n",
         stderr);
     named.emplace_back("--videosink=fakesink sync=true");
   }

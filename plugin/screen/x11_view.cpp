@@ -147,7 +147,7 @@ class X11View : public View {
   /// Takes a window that has just opened out of the way, into the lower right corner of the screen:
   /// a window manager or its absence may have put it over the film, which nobody would then see.
   void put_aside(Window own) {
-    if (!put_aside_.insert(own).second) return;
+    if (!put_aside_.insert(own).second || !has_looked_) return;
     const int screen = DefaultScreen(display_);
     const int width = DisplayWidth(display_, screen), height = DisplayHeight(display_, screen);
     const auto side = [](int length) { return static_cast<unsigned>(length / kOwnParts); };
@@ -169,6 +169,7 @@ class X11View : public View {
       put_aside(window);
       if (is_whole()) found.push_back(now);
     }
+    has_looked_ = true;
     const std::lock_guard<std::mutex> lock(mutex_);
     own_ = std::move(found);
   }
@@ -201,6 +202,7 @@ class X11View : public View {
   int visibility_ = VisibilityUnobscured;
   Sight sight_ = Sight::kWhole;
   std::set<Window> put_aside_;
+  bool has_looked_ = false;  // what is open at the first look has been put there by the user
   std::mutex mutex_;
   std::vector<XWindowAttributes> own_;  ///< their x and y are those on the screen
 };

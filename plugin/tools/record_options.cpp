@@ -134,7 +134,9 @@ void refuse_output(const std::string& film, const std::string& output) {
   if (output.back() == '/' || fs::is_directory(output, none)) {
     line += " --folder " + quoted(output);
   } else {
-    line += (format == ".flac" ? "" : " --format " + format.substr(1)) + " && mv " +
+    const bool converts = !ends_as_track(output) && fs::path(output).has_extension();
+    line += (format == ".flac" ? "" : " --format " + format.substr(1)) +
+            (converts ? " && spidartrack convert " : " && mv ") +
             quoted(film + ".haptic" + format) + " " + quoted(output);
   }
   throw UsageError(output + ": a track is named after its film; type: " + line);

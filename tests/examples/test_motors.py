@@ -10,6 +10,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import signal
 import shutil
 import socket
@@ -97,7 +98,9 @@ class Ports(Case):
 
     def test_osc_comes_at_each_address_and_at_a_broadcast(self):
         four, port = self.inlet("127.0.0.1")
-        inlets = [four] + ([self.inlet("::1", port)[0]] if socket.has_ipv6 else [])
+        inlets = [four]
+        with contextlib.suppress(OSError):  # a machine without IPv6
+            inlets.append(self.inlet("::1", port)[0])
         every = self.inlet("", 0)
         addresses = [(each.family, socket.SOCK_DGRAM, 17, "", each.getsockname()) for each in reversed(inlets)]
         with mock.patch.object(socket, "getaddrinfo", return_value=addresses):
@@ -227,7 +230,7 @@ class Firmware(Case):
         subprocess.run([compiler, "-std=c++17", "-Wall", "-Werror", "-I", self.folder, "-include", header, "-x", "c++",
                         EXAMPLES / "tcode" / "tcode.ino", "-o", self.folder / "board"], check=True)
         for said, pulses in (("L09999I10\n", "9:2000"), ("L00 R0123I10\r\n", "9:1000 10:1123"), ("L05000\nL1000\n", ""),
-                             ("L0999 L05000I10\n", "9:1999 9:1500"), ("L0\nL\n\nD0\nL09", ""), (200 * "R09" + "\n", ""),
+                             ("L0999 L05000I10\n", "9:1999 9:1500"), ("L0\nL\n\nD0\nL09", ""), (200 * "R09 " + "\n", ""),
                              ("R00\n~\n", "10:1000 10:1500")):
             done = subprocess.run([self.folder / "board"], input=said, capture_output=True, text=True, check=True)
             self.assertEqual(done.stdout.split(), ["9:1500", "10:1500", *pulses.split()], said)
@@ -278,6 +281,9 @@ class Film(Case):
                 os.close(inside)
                 got = b""
                 while re.fullmatch(rb"(L05000I10\n)*[^\n]*", got):  # until it moves
+                    if not select.select([board], [], [], 60)[0]:
+                        program.kill()
+                        self.fail(program.communicate()[1])
                     got += os.read(board, 4096)
                 os.close(terminal) if end == "terminal" else program.send_signal(end)
                 _, errors = program.communicate(timeout=60)
@@ -285,8 +291,10 @@ class Film(Case):
                     os.close(terminal)
                 got += read_all(board)
                 os.close(board)
-                self.assertEqual((program.returncode, errors), (0, ""))
-                self.assertRegex(got.decode(), r"^(L0\d{4}I10\n)+L05000I10\n$")
+                self.assertEqual(program.returncode, 0, errors)
+                # A program that gets no processor for WRITE_S takes a message for cut, and says so.
+                self.assertNotIn("did not take the rest", errors)
+                self.assertRegex(got.decode(), r"^(\s*L0\S*\s)*\s*L05000I10\n$")
 
     def test_what_cannot_be_played_is_told_and_a_board_rests(self):
         board, line = self.board()

@@ -70,6 +70,7 @@ class Batch(track_case.TrackCase):
         for words, line in ((["none.flac"], "&& mv 'a film.avi.haptic.flac' none.flac"),
                             (["-o", "a track.flac"], "&& mv 'a film.avi.haptic.flac' 'a track.flac'"),
                             (["--output=out.wav"], "--format wav && mv 'a film.avi.haptic.wav' out.wav"),
+                            (["-o", "x.hjif"], "&& spidartrack convert 'a film.avi.haptic.flac' x.hjif"),
                             (["-oout"], "&& mv 'a film.avi.haptic.flac' out"), (["-o", "out/"], "--folder out/")):
             self.assert_said(": a track is named after its film; type: spidartrack record 'a film.avi' " + line, "record",
                              "a film.avi", *words, status=2)

@@ -150,9 +150,11 @@ void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
   const ControllerSettings other = with_values(controller, settings.other());
   const std::vector<double> used_N = timeline.gain_curve(controller, highest_px_s, kCurvePoints),
                             other_N = timeline.gain_curve(other, highest_px_s, kCurvePoints);
-  const double most_N =
-      force_axis_end_N(std::max(*std::max_element(used_N.begin(), used_N.end()),
-                                *std::max_element(other_N.begin(), other_N.end())));
+  double highest_N = 0;
+  for (const std::vector<double>* const curve_N : {&used_N, &other_N}) {
+    for (const double force_N : *curve_N) highest_N = std::max(highest_N, force_N);
+  }
+  const double most_N = force_axis_end_N(highest_N);
   const int steps = std::max(2, Plot::steps_across(brush, content.width));
   const PlotAxis x = make_axis(0, highest_px_s, steps);
   const PlotAxis y = make_axis(0, most_N, Plot::steps_up(brush, content.height));
