@@ -86,7 +86,8 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   yield_.see(position_m, velocity_m_s, strings_N_, rest_N_, is_whole(), dt_s);
   unheld_.see(velocity_m_s, dt_s);
   // A grip that turns to and fro is slow twice in each turn.
-  spun_s_ = turn_rad_s.norm() > kFastest_rad_s ? spun_s_ + dt_s : std::max(0.0, spun_s_ - dt_s / 2);
+  const bool is_fast = turn_rad_s.norm() > kFastest_rad_s;
+  spun_s_ = std::clamp(spun_s_ + (is_fast ? dt_s : -dt_s / 2), 0.0, kSpins_s);
   // No grip that nobody holds has more energy than the heaviest at its speed.
   const double speed_m_s =
       kSpeedError_m_s + std::max(velocity_m_s.norm(), ahead_.linear_m_s.norm());

@@ -241,14 +241,19 @@ TEST(ReleasedGrip, WhatIsNotANumberDoesNotKeepTheBrakeFromActing) {
   EXPECT_GT(bad, 0);
 }
 
-TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
+/// The motion of a grip that has turned at `turn_rad_s` for 0.1 s.
+GripMotion spin(double turn_rad_s) {
   GripMotion spins;
   for (int i = 0; i < 100; ++i) {
     Pose pose;
-    pose.orientation =
-        Eigen::AngleAxisd(1.1e-3 * brake::kFastest_rad_s * i, Eigen::Vector3d::UnitZ());
+    pose.orientation = Eigen::AngleAxisd(1e-3 * turn_rad_s * i, Eigen::Vector3d::UnitZ());
     spins.update(pose, i * kTick_ns);
   }
+  return spins;
+}
+
+TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
+  const GripMotion spins = spin(1.1 * brake::kFastest_rad_s);
   GripBrake brake(GripBody::inferred(0.03), 0);
   const auto is_held_after = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
@@ -268,6 +273,39 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   EXPECT_TRUE(is_held_after(9));
   rest();
   EXPECT_FALSE(is_held_after(11));
+}
+
+/// However long a grip has spun, its wrench returns kRest_s and kReturn_s after it has come to
+/// rest.
+TEST(GripBrake, ALongSpinRestsNoLongerThanAShortOne) {
+  const GripMotion spins = spin(1.1 * brake::kFastest_rad_s);
+  GripBrake brake(GripBody::inferred(0.03), 0);
+  const auto run = [&](const GripMotion& motion, double seconds) {
+    for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
+      brake.see(Eigen::Vector3d::Zero(), motion, 0, 1e-3);
+      brake.apply({}, motion, 1e-3);
+    }
+  };
+  run(spins, 1);
+  EXPECT_FALSE(brake.held());
+  constexpr double kRounding_s = 0.1;  // and the time in which what counts is forgotten
+  run({}, brake::kRest_s + brake::kReturn_s + kRounding_s);
+  EXPECT_TRUE(brake.held());
+}
+
+/// Until drives that lag 45 ms have followed, the grip turns by 0.37, 0.74 and 1.1 rad.
+TEST(GripBrake, AWrenchThatWouldComeForAnotherPoseIsWithheld) {
+  const Wrench wanted{{1, 0, 0}, {0, 0, 0}};
+  const auto left_N = [&](double turn_rad_s) {
+    GripBrake brake(GripBody::inferred(0.03), 0.045);
+    const double left_N = brake.apply(wanted, spin(turn_rad_s), 1e-3).force_N.x();
+    if (turn_rad_s > 20) EXPECT_EQ(brake.damper().torque_Nm.norm(), 0);
+    return left_N;
+  };
+  EXPECT_EQ(left_N(8), 1);
+  EXPECT_GT(left_N(16), 0.1);
+  EXPECT_LT(left_N(16), 0.9);
+  EXPECT_EQ(left_N(24), 0);
 }
 
 TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
