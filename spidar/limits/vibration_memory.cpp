@@ -48,15 +48,17 @@ bool is_of_another(const struct stat& status) {
 /// The owner that a user namespace, as of a container, shows for root outside of it (overflowuid).
 constexpr uid_t kUnmapped = 65534;
 
-/// The first folder above the file in which others may remove or rename what leads to it; empty if
-/// there is none. A sticky folder lets everybody do so with his own files only. A group that this
-/// user belongs to by default is taken for his own.
+/// The first folder above the file in which others may remove or rename what leads to it, or
+/// whose permissions are not known; empty if there is none. A sticky folder lets everybody do so
+/// with his own files only. A group that this user belongs to by default is taken for his own.
 std::string folder_of_others(const fs::path& file) {
   std::error_code error;
-  for (fs::path folder = fs::canonical(file, error); folder.has_relative_path();) {
+  fs::path folder = fs::canonical(file, error);
+  if (error) return file.parent_path().string();
+  while (folder.has_relative_path()) {
     folder = folder.parent_path();
     struct stat status {};
-    if (stat(folder.c_str(), &status) != 0) continue;
+    if (stat(folder.c_str(), &status) != 0) return folder;
     const mode_t others = S_IWOTH | (status.st_gid == getegid() ? 0 : S_IWGRP);
     const bool is_open = (status.st_mode & others) != 0 && (status.st_mode & S_ISVTX) == 0;
     const bool is_of_system = status.st_uid == 0 || status.st_uid == kUnmapped;
@@ -85,7 +87,7 @@ class LockedFile {
     if ((status.st_mode & (S_IWGRP | S_IWOTH)) != 0 || is_of_another(status)) {
       untrusted = "others may write it: chmod go-w and chown it to yourself, or remove it";
     } else if (!folder.empty()) {
-      untrusted = "others may remove it: chmod go-w " + folder + ", and chown that to yourself";
+      untrusted = "others may remove it: chmod go-w " + folder + ", which you or root must own";
     }
   }
   ~LockedFile() {
