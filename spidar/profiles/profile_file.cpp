@@ -146,9 +146,9 @@ constexpr double kMinLength_m = 1e-3;
 constexpr double kMin_m_per_count = 1e-6;
 constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
-// Less has a ball of 1 g and 16 mm, more one of steel and 15 cm: a mistaken unit.
+// More has no grip of 300 g within 8 cm, and less no ball of 1 g and 16 mm: a mistaken unit.
 constexpr double kMinInertia_kg_m2 = 1e-7;
-constexpr double kMaxInertia_kg_m2 = 0.1;
+constexpr double kMaxInertia_kg_m2 = 2e-3;
 // Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
 constexpr double kMaxDac_V = 60;
 // Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
