@@ -52,7 +52,7 @@ Wrench WrenchChain::brake(const Wrench& wrench) noexcept {
 }
 
 Wrench WrenchChain::rates(const Wrench& wrench) noexcept {
-  return rate_limits.apply(wrench, fresh, rates_s, set);
+  return rate_limits.apply(wrench.is_finite() ? wrench : Wrench{}, fresh, rates_s, set);
 }
 
 /// They and the limits in effect fall by the same steps, but for rounding and

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// The lists of the limits of a tick are those of the page.
 #include "spidar/grip/tension_chain.h"
+#include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/wrench_chain.h"
 #include "tests/support/test.h"
 
@@ -35,6 +36,33 @@ TEST(LimitChains, ThePageListsWhatTheCodeDoes) {
     const size_t at = text.find(list);
     ASSERT_NE(at, std::string::npos) << "docs/architecture.md lacks, in this order:\n" << list;
     EXPECT_FALSE(std::isdigit(text[at + list.size()])) << "the page goes on with the list " << list;
+  }
+}
+
+// The numbers in these texts.
+TEST(LimitChains, TheirTextsNameTheConstants) {
+  EXPECT_EQ(SafetyLimits{}.max_slew_N_s, 300);
+  EXPECT_EQ(SafetyLimits{}.max_slew_Nm_s, 10);
+  EXPECT_EQ(SafetyLimits{}.ramp_s, 0.04);
+  EXPECT_EQ(HapticLoop::kEnergise_s, 0.2);
+  EXPECT_EQ(HapticLoop::kRelease_s, 0.05);
+  EXPECT_EQ(TensionSlew::kRange_s, 0.02);
+  EXPECT_EQ(TensionSlew::kMin_N_s, 300);
+}
+
+// Compared with what is not a number, the last two steps took nothing from the force of before.
+TEST(LimitChains, RatesTakeWhatIsNotFiniteForNothing) {
+  const Profile profile = load_profile(kDefaultProfile);
+  SafetyLimits limits;
+  VibrationBudget vibration(profile.geometry.grip_radius_m());
+  GripBrake brake(profile.body(), profile.drive_lag_s);
+  WrenchLimits rates;
+  rates.continue_from({{1, 0, 0}, {0, 0, 0}});
+  WrenchChain chain{limits, limits, limits, vibration, brake, rates, {}, {}, true, 1e-3, 1e-3};
+  for (const WrenchChain::Step& step : WrenchChain::kSteps) {
+    if (std::string(step.name) != "Rates") continue;
+    const Wrench bad{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 0}};
+    EXPECT_NEAR((chain.*step.leave)(bad).force_N.x(), 1 - 1e-3 * limits.max_slew_N_s, 1e-12);
   }
 }
 
