@@ -125,7 +125,7 @@ TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threade
   // What reads from a pipe waits for it.
   thread_ = start_thread("spidar-trace", [this, is_file = std::filesystem::is_regular_file(path)] {
     if (is_file) request_background();
-    run();
+    run(is_file);
   });
 }
 
@@ -139,10 +139,10 @@ TraceThread::~TraceThread() {
   drain();
 }
 
-void TraceThread::run() noexcept {
+void TraceThread::run(bool is_file) noexcept {
   std::unique_lock lock(mutex_);
   while (!stop_) {
-    wake_.wait_for(lock, std::chrono::milliseconds(1));
+    wake_.wait_for(lock, is_file ? LineWriter::kPeriod : std::chrono::milliseconds(1));
     take_records();
   }
 }

@@ -49,7 +49,8 @@ class TickTrace {
   uint64_t missing_ticks_ = 0;
 };
 
-/// Reads the records of a loop every ms. The loop can store more than four seconds of them.
+/// Reads the records of a loop every LineWriter::kPeriod, for a pipe every ms. The loop can store
+/// more than four seconds of them.
 class TraceThread {
  public:
   /// Throws std::runtime_error when the file cannot be written. `loop` must outlive this object.
@@ -65,7 +66,7 @@ class TraceThread {
   LineWriter::Status status() const noexcept;
 
  private:
-  void run() noexcept;
+  void run(bool is_file) noexcept;
   void take_records() noexcept;
   void note_status() noexcept;
 
