@@ -149,12 +149,19 @@ TEST(HapticLoop, SaysWhenItsRingIsFull) {
 }
 
 TEST(HapticLoop, CountsWhatIsNotFinite) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->schedule(frame(0, push_right(std::numeric_limits<double>::quiet_NaN())));
-  driver.play(0);
-  for (int i = 0; i < 10; ++i) ASSERT_EQ(driver.tick().commanded.stacked().norm(), 0);
-  EXPECT_EQ(driver.counters().rejected_wrenches, 10u);
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), kInf, -kInf}) {
+    for (int part = 0; part < 6; ++part) {
+      Wrench wrench{{1, 1, 1}, {0.01, 0.01, 0.01}};
+      (part < 3 ? wrench.force_N : wrench.torque_Nm)[part % 3] = bad;
+      LoopDriver driver;
+      driver.open();
+      driver.loop->schedule(frame(0, wrench));
+      driver.play(0);
+      for (int i = 0; i < 10; ++i) ASSERT_EQ(driver.tick().commanded.stacked().norm(), 0) << part;
+      EXPECT_EQ(driver.counters().rejected_wrenches, 10u) << part;
+    }
+  }
 }
 
 TEST(HapticLoop, CountsTimesThatDoNotRise) {
