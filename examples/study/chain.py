@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""A chain of digests over all that a study keeps, written as it goes: what is changed, moved, removed or added later does not fit.
+"""A chain of digests over all that a study keeps, written as it goes: what is changed, moved, removed or added later
+does not fit.
 
-ANSWERS.csv.chain has an entry for each session and its end, each row of a table, each file, each clip before it is played,
-and each look at the answers. An entry's digest covers a random salt, its time, its name and its content; its link covers the
-link before, its kind and its digest. A link therefore stands for all that came before, and whoever writes the chain anew
-changes the codes that sessions have printed. When a participant withdraws, times, names and salts of their entries are
-deleted, so that nobody can try what the digests were of.
+ANSWERS.csv.chain has an entry for each session and its end, each row of a table, each file, each clip before it is
+played, and each look at the answers. An entry's digest covers a random salt, its time, its name and its content; its
+link covers the link before, its kind and its digest. A link therefore stands for all that came before, and whoever
+writes the chain anew changes the codes that sessions have printed. When a participant withdraws, times, names and salts
+of their entries are deleted, so that nobody can try what the digests were of.
 """
 
 import csv
@@ -21,17 +22,18 @@ from datetime import datetime, timezone
 from pathlib import Path
 
 COLUMNS = ["kind", "time_utc", "name", "salt", "digest", "link"]
-TABLES = ("", ".participants", ".presentations", ".briefings", ".thresholds", ".exports")
-SETTINGS = ".settings.json"
+TABLES = ("", ".presentations", ".briefings", ".thresholds", ".exports", ".participants")  # where withdraw() looks
+SETTINGS, LOCK = ".settings.json", ".lock"
 TRACES = ("", ".haptic", ".screen")
-# The kinds of entries, and what each may follow. The name of a session is its machine, of a row its table, of a file what
-# its path has beyond that of the answers, of a clip that of its traces, of a look the number of participants; `withdrawn`
-# names the lines that were made unreadable. A session that was killed has no end; if the power failed before the content of
-# its last entry was written, the next session says that this was `cut off`.
+# The kinds of entries, and what each may follow. The name of a session is its machine, of a row its table, of a file
+# what its path has beyond that of the answers, of a clip that of its traces, of a look the number of participants;
+# `withdrawn` names the lines that were made unreadable. A session that was killed has no end; if the power failed
+# before the content of its last entry was written, the next session says that this was `cut off`.
 WITH_CONTENT = ("row", "file")
 OF_PEOPLE = (*WITH_CONTENT, "clip")
 BEFORE = ("session", "cut off", *OF_PEOPLE, "look", "withdrawn")
-FOLLOWS = dict.fromkeys((*OF_PEOPLE, "look", "withdrawn", "end"), BEFORE) | {"session": ("", "end", *BEFORE), "cut off": ("session",)}
+FOLLOWS = (dict.fromkeys((*OF_PEOPLE, "look", "withdrawn", "end"), BEFORE)
+           | {"session": ("", "end", *BEFORE), "cut off": ("session",)})
 NOTED = 8  # characters of a link, which somebody can note: 32 bits
 
 
@@ -121,7 +123,8 @@ def cut_off(entries):
 def matched(entries, table, rows):
     """For each row the line of its entry, or None: both have one order. And how many entries have no row."""
     cut, found, begin = cut_off(entries), [], 0
-    left = [n for n, entry in entries.items() if n not in cut and entry["salt"] and (entry["kind"], entry["name"]) == ("row", table)]
+    left = [n for n, entry in entries.items()
+            if n not in cut and entry["salt"] and (entry["kind"], entry["name"]) == ("row", table)]
     for row in rows:
         place = next((i for i in range(begin, len(left)) if fits(entries[left[i]], row.encode())), None)
         found.append(None if place is None else left[place])
@@ -137,6 +140,8 @@ def forget(answers, is_of):
         rows |= dict(zip(matched(entries, table, lines)[0][1:], lines[1:]))
     gone = {n for n, entry in entries.items() if entry["salt"] and entry["kind"] in OF_PEOPLE and
             (n in cut_off(entries) or is_of(entry["name"], rows.get(n, "")))}
+    if not gone:  # what remains of a withdrawal that was interrupted
+        return
     for n in gone:
         entries[n] |= dict.fromkeys(("time_utc", "name", "salt"), "")
     last = after(entries[max(entries)]["link"], "withdrawn", " ".join(map(str, sorted(gone))))
@@ -146,19 +151,23 @@ def forget(answers, is_of):
 
 @contextmanager
 def session(answers):
-    """All is written in one, after its entry. What is left of the last one without having been written as a whole is removed.
-    Prints what somebody is to note. Raises ValueError while there is another one."""
-    with open(f"{answers}.chain", "ab") as lock:
+    """All is written in one, after its entry. What is left of the last one without having been written as a whole is
+    removed. Prints what somebody is to note. Raises ValueError while there is another one."""
+    with open(f"{answers}{LOCK}", "ab") as lock:  # a file that is never replaced, as the chain is by forget()
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError as error:
-            raise ValueError(f"{answers}: another program has a session of this study; wait until it has ended") from error
+            raise ValueError(f"{answers}: another program has a session of this study; wait until it has "
+                             "ended") from error
+        for name in (*TABLES, SETTINGS, ".chain"):
+            Path(f"{answers}{name}.new").unlink(missing_ok=True)  # replace_file() was killed
         for path in (Path(f"{answers}{table}") for table in TABLES):
             text = path.read_text(encoding="utf-8") if path.exists() else ""
             if text and not text.endswith("\n"):
                 replace_file(path, text[:text.rfind("\n") + 1])
         last = [*read(answers).values()][-1:]
-        is_lost = any(entry["kind"] in WITH_CONTENT and not any(fits(entry, each) for each in contents_of(answers, entry)) for entry in last)
+        is_lost = any(entry["kind"] in WITH_CONTENT
+                      and not any(fits(entry, each) for each in contents_of(answers, entry)) for entry in last)
         add(answers, "session", platform.node())
         if is_lost:
             add(answers, "cut off")
@@ -198,7 +207,8 @@ def registered(answers):
 def walk(entries):
     """By line, what is wrong with an entry after those before it; and the clips in which the session was killed."""
     wrong, killed, played, files, link, state, clip = {}, set(), set(), {SETTINGS}, COLUMNS[-1], "", ""
-    cut, gone = cut_off(entries), {n for entry in entries.values() if entry["kind"] == "withdrawn" for n in entry["name"].split()}
+    cut = cut_off(entries)
+    gone = {n for entry in entries.values() if entry["kind"] == "withdrawn" for n in entry["name"].split()}
     for n, entry in entries.items():
         kind, name = entry["kind"], entry["name"]
         if entry["link"] != hash_of(link, kind, entry["digest"]):
@@ -210,7 +220,8 @@ def walk(entries):
                 wrong[n] = "is unreadable, and not of who withdrew"
         elif kind not in WITH_CONTENT and not fits(entry):
             wrong[n] = "is not as it was written"
-        elif name not in TABLES if kind == "row" else name not in files if kind == "file" else kind == "clip" and name in played:
+        elif (name not in TABLES if kind == "row" else name not in files if kind == "file"
+              else kind == "clip" and name in played):
             wrong[n] = f'"{kind} {name}" has no place here'
         if kind in ("session", "end", "clip"):
             killed, files, clip = killed | {clip}, files & {SETTINGS}, ""
@@ -227,7 +238,7 @@ def walk(entries):
 def files_there(answers):
     folder, name = Path(answers).parent, Path(answers).name
     beside = {each.name[len(name):] for each in folder.iterdir() if each.is_file() and each.name.startswith(f"{name}.")}
-    return beside - {*TABLES, ".chain"} | {f".traces/{each.name}" for each in Path(f"{answers}.traces").glob("*")}
+    return beside - {*TABLES, ".chain", LOCK} | {f".traces/{each.name}" for each in Path(f"{answers}.traces").glob("*")}
 
 
 def misfits(answers):
@@ -243,11 +254,12 @@ def misfits(answers):
     for table in TABLES:
         rows = lines_of(answers, table)
         found, missing = matched(entries, table, rows)
-        yield from (f"{answers}{table}:{n}: was not written so, or not here: {row}" for n, (row, entry) in enumerate(zip(rows, found), 1)
-                    if not entry)
+        yield from (f"{answers}{table}:{n}: was not written so, or not here: {row}"
+                    for n, (row, entry) in enumerate(zip(rows, found), 1) if not entry)
         if missing:
             yield f"{answers}{table}: {missing} of the rows that were written are not in it"
-    files = {entry["name"]: entry for n, entry in entries.items() if entry["kind"] == "file" and entry["salt"] and n not in cut}
+    files = {entry["name"]: entry for n, entry in entries.items()
+             if entry["kind"] == "file" and entry["salt"] and n not in cut}
     for name in sorted({SETTINGS} | files.keys() | files_there(answers)):
         path = Path(f"{answers}{name}")
         if not path.exists():

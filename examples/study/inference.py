@@ -107,7 +107,8 @@ def levels(looks, planned, level):
     density inside the bounds is integrated from look to look."""
     spent = lambda part: 4 * norm.sf(norm.isf(level / 4) / math.sqrt(part)) if part else 0.0
     found, places, shares, before = [], np.zeros(1), np.ones(1), 0
-    for now in (1 if people >= planned else max(0, people - FIRST_PEOPLE) / (planned - FIRST_PEOPLE) for people in looks):
+    for now in (1 if people >= planned else max(0, people - FIRST_PEOPLE) / max(1, planned - FIRST_PEOPLE)
+                for people in looks):
         if now == before:
             found.append(0.0)
             continue

@@ -109,7 +109,7 @@ def names_of(paths):
         return [(path, str, str) for path in paths]
     found, machines, first, names = [], {}, None, {}
     for path in paths:
-        settings = read_settings(path) or {"clips_sha256": {}, "practice": "", "host": ""}
+        settings = {"clips_sha256": {}, "practice": "", "host": ""} | (read_settings(path) or {})
         digests, host, given = settings["clips_sha256"], settings["host"], set(chain.lines_of(path, "")[1:])
         same = settings | {"host": "", "practice": digests.get(settings["practice"]), "clips_sha256": sorted(digests.values())}
         first = first or same
@@ -120,7 +120,8 @@ def names_of(paths):
         if any(2 * len(given & others) > min(len(given), len(others)) for others in machines.values()):
             raise ValueError(f"{path}: has answers of another file, given at the same times: a copy is no other machine")
         machines[host] = given
-        found.append((path, lambda code, host=host: f"{code}@{host}" if code else code, lambda clip, digests=digests: names[digests[clip]]))
+        found.append((path, lambda code, host=host: f"{code}@{host}" if code else code,
+                      lambda clip, digests=digests: names.get(digests.get(clip), clip)))
     return found
 
 

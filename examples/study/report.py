@@ -77,7 +77,8 @@ def compared(rows, analysis, family):
 
 
 def rows_of(paths, table):
-    return [row | {"participant": code(row["participant"])} for path, code, _ in names_of(paths) for row in read_rows(f"{path}{table}")]
+    return [row | {"participant": code(row["participant"])} for path, code, _ in names_of(paths)
+            for row in read_rows(f"{path}{table}")]
 
 
 def describe_study(paths):
@@ -109,7 +110,8 @@ def describe_thresholds(paths):
     median = {name: statistics.median(values) for name, values in known.items() if values}
     if not median:
         return []
-    words = {"felt_N": "force {:.3f} N", "weber": "change of it {:.0%}", "turned_deg": "turn {:.0f}°", "late_ms": "delay {:.0f} ms"}
+    words = {"felt_N": "force {:.3f} N", "weber": "change of it {:.0%}", "turned_deg": "turn {:.0f}°",
+             "late_ms": "delay {:.0f} ms"}
     lines = ["", "what people tell on this device at least, medians: " + ", ".join(
         f"{words[name].format(value)} ({len(known[name])} people)" for name, value in median.items())]
     if "felt_N" in median and "weber" in median:
@@ -132,17 +134,21 @@ def describe_blinding(paths):
 
 
 def misfits(paths):
-    """What is not as it was written, in sentences; of a long list, the begin."""
-    found = [each for path in paths for each in (*chain.misfits(path), *unfit(read_answers(path), path, read_settings(path)))]
+    """What is not as it was written, in sentences; of a long list, the begin. Of a file that was changed, the rows are
+    not read."""
+    found = [each for path in paths
+             for each in [*chain.misfits(path)] or unfit(read_answers(path), path, read_settings(path))]
     return found[:MOST_NAMED] + [f"… and {len(found) - MOST_NAMED} more"] * (len(found) > MOST_NAMED)
 
 
 def look(paths, people, level):
-    """Counts a look at the answers of so many people in the chains. Returns its level, None if there is none, and a line that
-    says why."""
-    planned, looks = read_settings(paths[0])["participants"], {int(name) for path in paths for name in chain.named(path, "look")}
+    """Counts a look at the answers of so many people in the chains. Returns its level, None if there is none, and a
+    line that says why."""
+    planned = read_settings(paths[0])["participants"]
+    looks = {int(name) for path in paths for name in chain.named(path, "look") if name.isdecimal()}
     if not planned:
-        return None, "NOT REGISTERED: no number of participants was fixed before the first answer, so no p is that of a test"
+        return None, ("NOT REGISTERED: no number of participants was fixed before the first answer, so no p is that "
+                      "of a test")
     if people > max(looks, default=0):
         looks.add(people)
         for path in paths:
@@ -150,11 +156,12 @@ def look(paths, people, level):
                 chain.add(path, "look", str(people))
     looks = sorted(looks)
     if looks[-2:-1] >= [planned]:
-        return None, f"AFTER THE TEST: the level was spent when {planned} participants were reached, so no p is that of a test"
+        return None, (f"AFTER THE TEST: the level was spent when {planned} participants were reached, so no p is "
+                      "that of a test")
     found = levels(looks, planned, level)[-1]
     return found, ("INTERIM, NOT THE TEST: " if looks[-1] < planned else "") + (
-        f"look {len(looks)}, at {looks[-1]} of {planned} participants: p counts below {found:.3g}, so that all looks together "
-        f"err in {100 * level:g} %")
+        f"look {len(looks)}, at {looks[-1]} of {planned} participants: p counts below {found:.3g}, so that all looks "
+        f"together err in {100 * level:g} %")
 
 
 def report(answers, paths=(), exploratory=False):
@@ -162,29 +169,32 @@ def report(answers, paths=(), exploratory=False):
     exploratory."""
     wrong = misfits(paths)
     if wrong and not exploratory:
-        raise ValueError("\n".join(["files are not as they were written; put them back, or say --exploratory, and that it is, "
-                                    "wherever you publish it", *wrong]))
+        raise ValueError("\n".join(["files are not as they were written; put them back, or say --exploratory, and "
+                                    "that it is, wherever you publish it", *wrong]))
     analysis = read_settings(paths[0])["analysis"] if paths else ANALYSIS
     rows, level = differences(answers), analysis["level"]
     lines = ["EXPLORATORY: files are not as they were written", *wrong, ""] if wrong else []
     people = max((len(found) for key, found in rows.items() if family_of(key[1], analysis) == "primary"), default=0)
-    if paths and people and not wrong:
-        level, said = look(paths, people, level)
-        lines += [said, ""]
+    if paths and people and all(map(chain.read, paths)):  # a look is one, whatever else is wrong
+        found, said = look(paths, people, level)
+        if not wrong:
+            level, lines = found, [said, ""]
     lines += describe_study(paths)
     lines += distribution(ratings(answers), "answers")
     lines += ["", "As the paper counts, one answer of each person and condition (here the median over the clips):",
               *distribution(ratings(of_people(answers)), "people")]
     margin = analysis["margin_steps"]
     clips = min((len(each[0]) for each in rows.values()), default=MANY_CLIPS)
-    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is higher, for",
-              "other people and " + ("clips like these, if no few of them carry most of it" if clips >= MANY_CLIPS else
-                                     f"these clips; of others, fewer than {MANY_CLIPS} say too little") + ". p: of no difference; of",
-              f"what is expected to be equal, of a difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected",
-              "for the comparisons of the family."]
+    inferred = ("clips like these, if no few of them carry most of it" if clips >= MANY_CLIPS else
+                f"these clips; of others, fewer than {MANY_CLIPS} say too little")
+    lines += ["", "good: average and better, as the paper counts. difference: how many steps the second condition is "
+              f"higher, for\nother people and {inferred}. p: of no difference; of\nwhat is expected to be equal, of a "
+              f"difference of {margin:g} steps or more (two one-sided tests). Holm: p, corrected\nfor the comparisons "
+              "of the family."]
     for family in FAMILIES:
         found = list(compared(rows, analysis, family))
-        lines += ["", f"{family} ({'no test' if level is None or wrong else f'level {level:.3g}'})", COLUMNS, *found] if found else []
+        said = "no test" if level is None or wrong else f"level {level:.3g}"
+        lines += ["", f"{family} ({said})", COLUMNS, *found] if found else []
     lines += describe_thresholds(paths)
     lines += describe_blinding(paths)
     saw = {row["participant"] for row in rows_of(paths, ".briefings")

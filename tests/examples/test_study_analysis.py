@@ -128,7 +128,7 @@ class Inference(unittest.TestCase):
             looks = [inference.FIRST_PEOPLE + 1000 * part for part in fractions]
             for found, bound in zip(inference.levels(looks, looks[-1], 0.05), bounds):
                 self.assertAlmostEqual(norm.isf(found / 2), bound, delta=2e-4)
-        for looks, planned, expected in ([3, 5, 24], 24, [0, 0]), ([1, 3], 3, [0, 0.05]):
+        for looks, planned, expected in ([3, 5, 24], 24, [0, 0]), ([1, 3], 3, [0, 0.05]), ([1, 3, 4], 4, [0, 0]):
             np.testing.assert_allclose(inference.levels(looks, planned, 0.05)[:2], expected, atol=1e-12, err_msg="so early, nothing is spent")
 
     def test_looks_err_no_more_often_together_than_one_test(self):

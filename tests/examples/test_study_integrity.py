@@ -87,7 +87,7 @@ class Integrity(unittest.TestCase):
         for name, old, new, said in [
                 (".settings.json", '"seed": 1', '"seed": 2', "settings.json: is not as it was written"),
                 (".settings.json", '"preview": {}', '"preview": {"a": 0}', "settings.json: is not as it was written"),
-                ("", r"\b(non)?linear\b", lambda found: "linear" if found[1] else "nonlinear", "was not what was shown"),
+                ("", r"\b(non)?linear\b", lambda found: "linear" if found[1] else "nonlinear", "was not written so, or not here: P1,"),
                 ("", r"(,[1-5]),now", r"\g<1>,then", "answers.csv:2: was not written so, or not here: P1,"),
                 ("", r"\n([^\n]*)\n([^\n]*)\n", r"\n\g<2>\n\g<1>\n", "answers.csv:3: was not written so, or not here: P1,1,"),
                 ("", r"\Z", "P3,1,controllers,linear,A2,a.avi,more,3,now", "answers.csv:68: was not written so"),
@@ -115,6 +115,17 @@ class Integrity(unittest.TestCase):
         for name, said in ((".traces/P1-2.haptic.csv", "P1-2.haptic.csv: is missing"), (".chain", ".chain: is missing")):
             Path(f"{self.path}{name}").unlink()
             self.require(said)
+
+    def test_what_cannot_be_read_any_more_is_named(self):
+        for name, old, new in ((".presentations", ",problem,", ",fault,"),
+                               (".participants", r"\nP2,[^\n]*", "\nP2"),
+                               (".settings.json", '"clips_sha256"', '"clips"')):
+            with self.subTest(name=name):
+                keep = Path(f"{self.path}{name}").read_bytes()
+                self.edit(name, old, new)
+                with self.assertRaisesRegex(ValueError, re.escape(name) + r"(:\d)?: (is|was) not .*written"):
+                    self.report()
+                Path(f"{self.path}{name}").write_bytes(keep)
 
     def entries(self):
         return list(chain.read(self.path).values())
@@ -214,6 +225,26 @@ class Integrity(unittest.TestCase):
         self.edit("", "P3,1,[^\n]*\n", "")
         self.require("of the rows that were written are not in it")
 
+    def test_a_withdrawal_that_was_interrupted_is_finished_by_the_next_one(self):
+        """Before each of the files that it replaces takes the place of the old one."""
+        replace, kept = chain.os.replace, self.folder.with_name("kept")
+        shutil.copytree(self.folder, kept)
+        for count in range(5):
+            shutil.rmtree(self.folder)
+            shutil.copytree(kept, self.folder)
+            left = iter(range(count))
+
+            def killed(old, new, left=left):
+                if next(left, None) is None:
+                    raise KeyboardInterrupt
+                replace(old, new)
+
+            with patch.object(chain.os, "replace", killed), self.assertRaises(KeyboardInterrupt):
+                records.Participants(self.path).withdraw("P2")
+            records.Participants(self.path).withdraw("P2")
+            self.assertIn("withdrew: 1", self.report())
+            self.assertFalse([file for file in self.folder.rglob("*") if file.is_file() and "P2" in file.name + file.read_text()])
+
     def test_a_session_that_the_power_ended_fits(self):
         """Between an entry of the chain and its row, within the row, and within a line of the chain; or in a clip."""
         def killed(*write):
@@ -258,6 +289,9 @@ class Integrity(unittest.TestCase):
         other = self.study(self.folder / "other.csv", clips=["c.avi", "b.avi"], host="lab2", clips_sha256=renamed)
         self.assertEqual({answer.clip for answer in records.read_merged([self.path, other])}, {"a.avi", "b.avi"})
         self.assertRegex(self.report(self.path, other), r"(?m)^controllers: movement +linear, nonlinear +6 +2 ")
+        self.edit("", ",c.avi,", ",z.avi,", other)
+        with self.assertRaisesRegex(ValueError, "other.csv:[0-9]+: was not written so.*z.avi"):
+            self.report(self.path, other)
 
     def test_a_copy_is_no_other_machine(self):
         """Its host changed, and its chain made anew."""
@@ -273,8 +307,10 @@ class Integrity(unittest.TestCase):
 
     def test_nobody_writes_into_the_session_of_another_program(self):
         with chain.session(self.path):
-            with self.assertRaisesRegex(ValueError, "another program has a session of this study"), chain.session(self.path):
-                pass
+            for _ in range(2):
+                with self.assertRaisesRegex(ValueError, "another program has a session of this study"), chain.session(self.path):
+                    pass
+                chain.replace_file(f"{self.path}.chain", Path(f"{self.path}.chain").read_text())  # as forget() does
         self.assertNotIn("EXPLORATORY", self.report())
 
     def test_files_that_were_put_together_are_refused(self):
@@ -311,6 +347,13 @@ class Looks(unittest.TestCase):
             self.assertEqual("INTERIM" in text, people < 8)
         self.assertEqual(chain.named(self.path, "look"), ["6", "8", "9"])
         self.assertIn("primary (no test)", text)
+
+    def test_an_exploratory_look_is_counted_too(self):
+        with contextlib.redirect_stdout(io.StringIO()):
+            study_files.write(self.path, {"P0": lambda *_: 3}, participants=8)
+            Path(f"{self.path}.more").touch()
+            self.assertIn("(no test)", report.report(records.read_answers(self.path), [self.path], exploratory=True))
+        self.assertEqual(chain.named(self.path, "look"), ["1"])
 
     def test_without_a_registration_there_is_no_test(self):
         text = self.report(2, None)
