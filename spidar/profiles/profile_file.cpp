@@ -138,15 +138,14 @@ class TomlField {
 namespace {
 
 constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
-// Larger values are a mistaken unit: the largest SPIDAR fills a room, and a count is some
-// micrometres.
+// A larger value is a mistaken unit: the largest SPIDAR fills a room.
 constexpr double kMaxCoordinate_m = 5.0;
 constexpr double kMinLength_m = 1e-3;
 // The finest encoder of a SPIDAR has 8 µm, the coarsest 35 µm.
 constexpr double kMin_m_per_count = 1e-6;
 constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
-// More has no grip of 300 g within 8 cm, and less no ball of 1 g and 16 mm: a mistaken unit.
+// No grip of 300 g within 8 cm has more, and no ball of 1 g and 16 mm less: a mistaken unit.
 constexpr double kMinInertia_kg_m2 = 1e-7;
 constexpr double kMaxInertia_kg_m2 = 2e-3;
 // Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
@@ -155,8 +154,7 @@ constexpr double kMaxDac_V = 60;
 constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
-// Steps of the D/A in the range of a string, at least: coarser ones are a mistaken unit. Those of
-// the shipped profiles have 280 or more.
+// Steps of the D/A in the range of a string, at least; the shipped profiles have 280 or more.
 constexpr double kMinSteps = 16;
 // No string of a device for a hand pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
