@@ -170,12 +170,14 @@ bool WebSocketTransport::Connection::has_unread() const noexcept {
 }
 
 Transport::Unasked WebSocketTransport::Connection::drop_unasked(int64_t until_ns) {
-  // −1: it takes what is there, and does not wait.
-  while (has_unread() && monotonic_now_ns() < until_ns) {
+  bool is_in_time = true;
+  while (is_in_time && has_unread()) {
+    is_in_time = monotonic_now_ns() < until_ns;
+    // −1: it takes what is there, and does not wait.
     if (lws_service(context_, -1) < 0) state_ = State::kGone;
   }
   finish();
-  if (has_unread()) return Unasked::kEndless;
+  if (!is_in_time) return Unasked::kEndless;
   return std::exchange(surplus_, false) ? Unasked::kDropped : Unasked::kNone;
 }
 
