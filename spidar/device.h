@@ -14,7 +14,7 @@
 
 namespace spidar {
 
-/// The result of an exchange, as a link reports it.
+/// The result of an exchange with a device.
 enum class LinkFault : uint8_t {
   kNone,         ///< answered
   kTimeout,      ///< no answer in time
@@ -22,23 +22,23 @@ enum class LinkFault : uint8_t {
   kShort,        ///< fewer bytes than expected
   kBabble,       ///< more bytes than expected
   kBusError,     ///< broken packets on the wire; often the first fault when a board is unplugged
-  kGone,         ///< unplugged
+  kGone,         ///< the device is unplugged
   kWrongReply,   ///< of the right length, but not the expected answer
   kWrongEcho,    ///< the board echoes D/A values that were not sent
   kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended, for example because it was killed
-  kStoodStill,   ///< this process stood still, so that the motors were set to zero
+  kStoodStill,   ///< this process was suspended, so that the guardian set the motors to zero
   kRefused,      ///< the kernel's driver refuses the request
 };
 constexpr size_t kLinkFaults = 13;
 
-/// Whether the device has to be opened again. Other faults may pass.
+/// Returns whether the device has to be opened again. Other faults may pass.
 constexpr bool is_lost(LinkFault fault) noexcept {
   return fault == LinkFault::kGone || fault == LinkFault::kUnguarded ||
          fault == LinkFault::kStoodStill;
 }
 
-/// "none", "timeout", "stall", "short packet", …
+/// Returns "none", "timeout", "stall", "short packet", …
 constexpr const char* to_string(LinkFault fault) noexcept {
   switch (fault) {
     case LinkFault::kNone:
@@ -73,10 +73,11 @@ constexpr const char* to_string(LinkFault fault) noexcept {
 
 /// Statistics of a link since the device was created.
 struct LinkHealth {
-  std::array<uint64_t, kLinkFaults> faults{};  ///< by LinkFault; kNone: successful exchanges
+  std::array<uint64_t, kLinkFaults> faults{};  ///< by LinkFault; kNone counts successful exchanges
   LinkFault last_fault = LinkFault::kNone;
-  uint64_t late_replies = 0;  ///< came too late for their tick and were used in the next one
-  /// Time from passing a packet to the link until its answer; 0 if nothing is measured.
+  /// Answers that came too late for their tick and were used in the next one.
+  uint64_t late_replies = 0;
+  /// Median time from sending a packet until its answer; 0 if nothing is measured.
   int64_t round_trip_median_ns = 0;
   int64_t round_trip_p99_ns = 0;
   int64_t round_trip_max_ns = 0;
@@ -91,10 +92,10 @@ struct LinkHealth {
 };
 
 struct MotorVolts {
-  std::array<double, kMaxStrings> volt{};  ///< signed as the D/A puts it out
+  std::array<double, kMaxStrings> volt{};  ///< signed as the D/A converter outputs it
 };
 
-/// Whether any motor gets a voltage other than zero.
+/// Returns whether any motor gets a voltage other than zero.
 inline bool pulls(const MotorVolts& volts) noexcept {
   for (const double volt : volts.volt) {
     if (volt != 0) return true;
@@ -110,7 +111,8 @@ inline MotorVolts scaled(MotorVolts volts, double fraction) noexcept {
 struct DeviceReading {
   std::array<int32_t, kMaxStrings> count{};  ///< encoder counts, signed as the board gives them
   uint32_t inputs = 0;                       ///< digital inputs, bit 0 first
-  int64_t read_ns = 0;  ///< time of reading, CLOCK_MONOTONIC; 0: unknown, the tick's
+  /// Time of reading, CLOCK_MONOTONIC; 0 when unknown, which means the time of the tick.
+  int64_t read_ns = 0;
 };
 
 /// The common interface of a device and a grip. One thread at a time, except where stated.
@@ -124,15 +126,15 @@ class Openable {
   /// again after close(), or after a fault that is_lost().
   virtual void open() = 0;
 
-  /// Sets the motors to zero, then releases the device. Safe to call twice, and when the device is
+  /// Sets the motors to zero, then releases the device. May be called twice, and when the device is
   /// lost.
   virtual void close() noexcept = 0;
 
-  /// A description, for the user, of what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch
-  /// 3". Empty while closed, and for devices whose name says everything.
+  /// Describes for the user what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
+  /// Empty while closed, and for devices whose name says everything.
   virtual std::string description() const { return {}; }
 
-  /// Statistics of the link to the device; all zero without one. Any thread.
+  /// Returns statistics of the link to the device; all zero without a link. Any thread.
   virtual LinkHealth health() const noexcept { return {}; }
 
   /// Any thread.
@@ -142,14 +144,13 @@ class Openable {
   const std::string name_;
 };
 
-/// A device as a grip uses it: it takes an `Output` and returns a `Reading`.
 template <typename Output, typename Reading>
 class DeviceOf : public Openable {
  public:
   using Openable::Openable;
 
-  /// One cycle. Called at 1 kHz: no allocation, no lock, no exception. `reading` is only written
-  /// with kNone.
+  /// Performs one cycle. The loop calls this at 1 kHz: no allocation, no lock, no exception. Writes
+  /// `reading` only when it returns kNone.
   virtual LinkFault exchange(const Output& output, Reading& reading) noexcept = 0;
 };
 

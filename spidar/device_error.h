@@ -24,14 +24,14 @@ struct SourceLocation {
 
 /// The reason, for programs; what() is for people.
 enum class DeviceErrorCode {
-  kFailed,     ///< it is there, but does not work as it should
-  kAbsent,     ///< it is not plugged in, or the program behind which it is does not run
-  kBusy,       ///< somebody else uses it
-  kForbidden,  ///< this user may not open it
-  kSettings,   ///< its name, its profile or its configuration is wrong
+  kFailed,     ///< the device is there, but does not work as it should
+  kAbsent,     ///< the device is not plugged in, or the program that provides it does not run
+  kBusy,       ///< another program uses the device
+  kForbidden,  ///< this user may not open the device
+  kSettings,   ///< the name, the profile or the configuration is wrong
 };
 
-/// The code for `error`, an errno.
+/// Returns the code for `error`, an errno.
 inline DeviceErrorCode error_code_of(int error) noexcept {
   switch (error) {
     case EACCES:
@@ -44,14 +44,14 @@ inline DeviceErrorCode error_code_of(int error) noexcept {
     case EBUSY:
     case EWOULDBLOCK:
       return DeviceErrorCode::kBusy;
-    case ENOTTY:  // the file is not of such a device
+    case ENOTTY:  // the file does not belong to such a device
       return DeviceErrorCode::kSettings;
     default:
       return DeviceErrorCode::kFailed;
   }
 }
 
-/// A device that cannot be opened. what() says which, why, and what to do.
+/// A device cannot be opened. what() says which, why, and what to do.
 class DeviceError : public std::runtime_error {
  public:
   explicit DeviceError(const std::string& what, DeviceErrorCode code = DeviceErrorCode::kFailed,

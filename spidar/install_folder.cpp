@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `folder` without the suffix `end`; empty when it does not end with it.
+/// Returns `folder` without the suffix `end`; empty when `folder` does not end with it.
 fs::path without_end(const fs::path& folder, const fs::path& end) {
   fs::path rest = folder;
   for (fs::path part = end; !part.empty(); part = part.parent_path()) {
@@ -61,11 +61,11 @@ std::vector<fs::path> listed_folders(const char* name) {
   std::vector<fs::path> folders;
   for (std::string rest = value ? value : ""; !rest.empty();) {
     std::error_code none;
-    size_t end = rest.size();  // the longest one that is there
+    size_t end = rest.size();  // the longest entry that exists
     while (end != std::string::npos && !fs::is_directory(rest.substr(0, end), none)) {
       end = end == 0 ? std::string::npos : rest.rfind(':', end - 1);
     }
-    if (end == std::string::npos) end = rest.find(':');  // none is
+    if (end == std::string::npos) end = rest.find(':');  // no entry exists
     if (end != 0) folders.emplace_back(rest.substr(0, end));
     rest.erase(0, end == std::string::npos ? end : end + 1);
   }

@@ -30,8 +30,8 @@ namespace gst_spidar {
 inline namespace v0 {
 namespace {
 
-/// The same data as a type of the other language, whose members are the same in the same order.
-/// Unlike a cast, it may be given an enum of C that has none of its values.
+/// Copies `from` into a type of the other language that has the same members in the same order.
+/// Unlike a cast, this may be given an enum of C that has none of its values.
 template <typename To, typename From>
 To same(const From& from) {
   static_assert(sizeof(To) == sizeof(From));
@@ -41,7 +41,8 @@ To same(const From& from) {
   return to;
 }
 
-/// Writes `text` as snprintf() does, and not half a character of UTF-8. Returns its length.
+/// Writes `text` as snprintf() does, but never half a character of UTF-8. Returns the length of the
+/// text.
 size_t write_text(const std::string& text, char* to, size_t size) noexcept {
   if (size == 0) return text.size();
   size_t length = std::min(size - 1, text.size());
@@ -61,7 +62,7 @@ void set_error(GstSpidarError* error, GstSpidarErrorKind kind,
   write_text(message, error->message, sizeof error->message);
 }
 
-/// What `call` returns, or `failed` with the error when it throws.
+/// Returns what `call` returns, or `failed` and the error when `call` throws.
 template <typename Result, typename Call>
 Result guarded(GstSpidarError* error, Result failed, const Call& call) noexcept {
   set_error(error, GST_SPIDAR_OK, {});
@@ -75,7 +76,6 @@ Result guarded(GstSpidarError* error, Result failed, const Call& call) noexcept 
   return failed;
 }
 
-/// Whether `call` has not thrown.
 template <typename Call>
 bool done(GstSpidarError* error, const Call& call) noexcept {
   return guarded(error, false, [&] {
@@ -105,7 +105,7 @@ Energy energy_of(const GstSpidarEnergy& energy) {
   throw std::invalid_argument("energy must be GST_SPIDAR_PASSIVE or GST_SPIDAR_ANY");
 }
 
-/// In one piece of memory: the pointers, then the names.
+/// Puts the pointers and, behind them, the names into one piece of memory.
 char** list_of(const std::vector<std::string>& names) {
   size_t size = (names.size() + 1) * sizeof(char*);
   for (const std::string& name : names) size += name.size() + 1;
@@ -120,7 +120,7 @@ char** list_of(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Whether a device takes something, which it may refuse, and does not take while it is lost.
+/// Returns whether the device has taken what `take` gives it: a device that is lost takes nothing.
 template <typename Take>
 bool taken(GstSpidarDevice* device, GstSpidarError* error, const char* what, const Take& take) {
   return guarded(error, false, [&] {
@@ -134,7 +134,7 @@ bool taken(GstSpidarDevice* device, GstSpidarError* error, const char* what, con
   });
 }
 
-/// Whether there is something, which is then written.
+/// Writes `from` to `to` if there is a value. Returns whether there is one.
 template <typename To, typename From>
 bool found(const std::optional<From>& from, To* to) {
   if (from) *to = same<To>(*from);

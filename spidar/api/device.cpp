@@ -44,12 +44,12 @@ spidar::Profile profile_for(const std::string& device, const std::string& profil
   }
   if (device == "none") throw std::runtime_error("\"none\" cannot be opened");
   spidar::Profile found = spidar::profile_for(device, profile);
-  // That of its own drives.
+  // A simulated device has the drive lag of its own model.
   if (spidar::is_simulated(device)) found.drive_lag_known = true;
   return found;
 }
 
-/// Running time is CLOCK_MONOTONIC, so a wrench that is pushed is due at once.
+/// The running time of this clock is CLOCK_MONOTONIC, so a wrench that is pushed is due at once.
 spidar::PlaybackClock now_is_now() {
   spidar::PlaybackClock clock;
   clock.monotonic_ns = HapticSession::monotonic_now_ns();
@@ -58,10 +58,11 @@ spidar::PlaybackClock now_is_now() {
   return clock;
 }
 
-/// Whether this thread is in a callback: of any device, because two could wait for each other.
+/// Whether this thread is in a callback of any device: two callbacks could wait for each other.
 thread_local bool calls_back = false;
 
-/// The haptic thread waits for nobody, and what waits for a callback to end would wait for itself.
+/// The haptic thread must not wait: a call that waits for the callback to end would wait for
+/// itself.
 void require_no_callback() {
   if (calls_back) {
     throw std::logic_error(
@@ -70,20 +71,18 @@ void require_no_callback() {
   }
 }
 
-/// The device and what drives it.
 struct Driven {
   Driven(const std::string& device, const spidar::Profile& profile)
       : session(spidar::make_grip(device, profile)) {
     session.loop().set_playback_clock(now_is_now());
   }
 
-  std::mutex calls;        // one at a time of those that change anything
+  std::mutex calls;        // serialises the calls that change anything
   TouchedSurface surface;  // the loop must not outlive it
   HapticSession session;
   int64_t pushed_ns = 0;
 };
 
-/// What a device gives at most.
 struct DeviceRange {
   DeviceRange(const std::string& device, const spidar::Profile& profile, const spidar::Grip& grip) {
     const spidar::GripAbilities can = grip.abilities();
@@ -106,7 +105,7 @@ struct DeviceRange {
     surface.drive_lag_s = has_strings ? spidar::assumed_lag_s(profile) : spidar::kUnmeasuredLag_s;
   }
 
-  /// Throws std::invalid_argument when `wanted` is no limit that the device can keep.
+  /// Throws std::invalid_argument unless the device can keep the limit `wanted`.
   void require(double wanted, double most, const char* what, const char* unit) const {
     if (wanted >= 0 && wanted <= most) return;
     std::ostringstream text;
@@ -116,7 +115,7 @@ struct DeviceRange {
     throw std::invalid_argument(text.str());
   }
 
-  std::string giver;  ///< a profile, or the device
+  std::string giver;  ///< what sets the bounds: a profile, or the device
   double largest_force_N = 0;
   double largest_torque_Nm = spidar::kDefaultTorque_Nm;
   Eigen::Vector3d workspace_m = Eigen::Vector3d::Zero();
@@ -133,14 +132,14 @@ struct __attribute__((visibility("hidden"))) Device::Impl {
         abilities(driven.get()->session.grip().abilities()),
         range(device, profile, driven.get()->session.grip()) {}
 
-  /// Throws std::logic_error within a callback, and std::runtime_error in a copy.
+  /// Throws std::logic_error within a callback, and std::runtime_error after fork() in the child.
   Locked<Driven> alone() const {
     require_no_callback();
     Driven* const mine = driven.get();
     if (!mine) throw std::runtime_error(kOtherProcess);
     return Locked(*mine);
   }
-  /// Nothing in a copy.
+  /// Returns nothing after fork() in the child.
   std::optional<spidar::LoopSnapshot> snapshot() const {
     const Driven* const mine = driven.get();
     if (!mine) return std::nullopt;
@@ -171,7 +170,7 @@ bool Device::push(const Wrench& wrench) {
   entry.wrench = from_api(wrench);
   if (!entry.wrench.is_finite()) throw std::invalid_argument("a wrench must be six finite numbers");
   const auto alone = impl_->alone();
-  // The clock may stand still between two calls, but times must rise.
+  // The clock may read the same in two calls, but the times of entries must rise.
   entry.time_ns = std::max(HapticSession::monotonic_now_ns(), alone->pushed_ns + 1);
   entry.hold_ns = kHold_ns;
   alone->pushed_ns = entry.time_ns;
@@ -205,8 +204,8 @@ void Device::set_callback(Callback callback, Energy energy) {
 }
 
 std::string Device::callback_error() const {
-  // A callback that runs has no error. The text of one that threw stays as long as no other one is
-  // set.
+  // While a callback runs there is no error. The text of a callback that threw stays valid until
+  // the next callback is set.
   Driven* const mine = impl_->driven.get();
   if (calls_back || !mine) return {};
   const std::lock_guard<std::mutex> alone(mine->calls);
@@ -273,7 +272,7 @@ double Device::vibration_fraction() const {
 
 Wrench Device::felt() const {
   const auto snapshot = impl_->snapshot();
-  // The strings already pull while the tensions ramp up, and still while they ramp down.
+  // The strings already pull while the tensions ramp up, and they still pull while they ramp down.
   if (!snapshot || snapshot->last.device == spidar::DeviceState::kLost) return {};
   return to_api(snapshot->last.delivered);
 }
@@ -298,7 +297,7 @@ DeviceState Device::state() const {
 
 bool Device::wait_until_running(std::chrono::milliseconds timeout) const {
   require_no_callback();
-  // Longer ones would overflow the clock.
+  // A longer time would overflow the clock.
   constexpr std::chrono::milliseconds kYears = std::chrono::hours(24 * 365 * 100);
   const auto until = std::chrono::steady_clock::now() + std::min(timeout, kYears);
   while (state() != DeviceState::kRunning || !pose()) {

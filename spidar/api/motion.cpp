@@ -44,7 +44,7 @@ static_assert(MotionSettings{}.max_force_N == spidar::kDefaultForce_N);
 
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
   spidar::AnalyzerSettings result;
-  result.area.kind = spidar::AreaSetting::Kind::kWhole;  // who calls knows what the pictures show
+  result.area.kind = spidar::AreaSetting::Kind::kWhole;  // the caller knows what the pictures show
   result.controller.law = law_of(settings.controller);
   result.motion = kind_of(settings.motion);
   result.controller.max_force_N = settings.max_force_N;
@@ -55,14 +55,14 @@ spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {
 }
 
 struct Analysis {
-  std::mutex calls;  // one at a time
+  std::mutex calls;  // serialises the calls
   spidar::MotionAnalyzer analyzer{settings_of({})};
 };
 
 }  // namespace
 
 struct __attribute__((visibility("hidden"))) MotionToWrench::Impl {
-  /// Throws std::runtime_error in a copy.
+  /// Throws std::runtime_error after fork() in the child.
   Locked<Analysis> alone() const {
     Analysis* const mine = analysis.get();
     if (!mine) {

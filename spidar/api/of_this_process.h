@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Objects that a copy of their process must not touch.
+/// Objects that the child process of a fork() must not touch.
 #pragma once
 
 #include <memory>
@@ -11,10 +11,11 @@
 namespace gst_spidar {
 inline namespace v0 {
 
-/// A child process by fork() has a copy of each object, but only of the thread that called fork():
-/// a lock that another one held is held for ever, and nobody completes what it was writing. So what
-/// has locks or threads is reached through this only, which gives it to the process that made it.
-/// A copy is not destroyed either: there is no thread to wait for.
+/// After fork(), the child has a copy of each object, but only the thread that called fork(): a
+/// lock that another thread held stays locked for ever, and nobody completes what that thread was
+/// writing. Objects with locks or threads are therefore reached only through this class, which
+/// gives them only to the process that made them. The child does not destroy the copy either: there
+/// is no thread to wait for.
 template <typename T>
 class OfThisProcess {
  public:
@@ -27,7 +28,7 @@ class OfThisProcess {
   OfThisProcess(const OfThisProcess&) = delete;
   OfThisProcess& operator=(const OfThisProcess&) = delete;
 
-  /// Null in a copy.
+  /// Returns null after fork() in the child.
   T* get() const noexcept { return getpid() == owner_ ? held_.get() : nullptr; }
 
  private:
@@ -35,7 +36,7 @@ class OfThisProcess {
   const pid_t owner_ = getpid();
 };
 
-/// An object of this process for one call, while others wait: `calls` is its mutex.
+/// Gives an object of this process to one call, while other calls wait for the mutex `calls`.
 template <typename T>
 class Locked {
  public:

@@ -18,15 +18,16 @@ inline namespace v0 {
 
 /// Where a surface lies, and how stiff it may be.
 struct SurfaceRange {
-  Eigen::Vector2d half_size_m = Eigen::Vector2d::Zero();  ///< 0: nothing can be touched
+  Eigen::Vector2d half_size_m = Eigen::Vector2d::Zero();  ///< 0: there is nothing to touch
   double most_stiffness_N_m = 0;
   double drive_lag_s = 0;
 };
 
-/// To be destroyed after the loop.
+/// The loop must not outlive this object.
 class TouchedSurface {
  public:
-  /// See Device::set_surface(). The same range and loop each time. One thread at a time.
+  /// Sets the surface, see Device::set_surface(). Each call must have the same range and loop. One
+  /// thread at a time.
   bool set(const Surface& surface, const SurfaceRange& range, spidar::HapticLoop& loop);
   /// Any thread, without waiting.
   void clear() noexcept;
@@ -36,7 +37,7 @@ class TouchedSurface {
 
   spidar::touch::ReliefBuilder builder_;
   std::unique_ptr<spidar::touch::Mailbox> mailbox_;          ///< null before the first surface
-  std::atomic<spidar::touch::Mailbox*> connected_{nullptr};  ///< the same, for clear()
+  std::atomic<spidar::touch::Mailbox*> connected_{nullptr};  ///< the mailbox, for clear()
 };
 
 }  // namespace v0

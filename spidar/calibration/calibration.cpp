@@ -22,15 +22,15 @@ constexpr int kMinStrings = 7;
 constexpr int kMaxFitIterations = 50;
 constexpr int kMaxRescalings = 5;
 constexpr double kSameSigma = 0.02;
-// exp(-12.5): four in a million of the good samples are outside.
+// A residual beyond 5 σ: exp(−12.5), four in a million, of the good samples are outside.
 constexpr double kOutlier = 5.0;
-// If the strings slipped and stayed there, the earlier offsets are no longer valid: most of the
-// last tenth of the samples must fit.
+// After the strings have slipped, earlier offsets are no longer valid: most of the last tenth of
+// the samples must fit.
 constexpr Eigen::Index kLastParts = 10;
 
-/// Standard deviation of one length, estimated from the norms of the samples' errors; up to half of
-/// them may be arbitrary. The norm of a good sample is σ times the root of χ² with `redundant`
-/// degrees of freedom, one or two. `parameters` were fitted to all samples. Not less than
+/// Estimates the standard deviation of one length from the norms of the samples' errors, up to half
+/// of which may be arbitrary. The norm of a good sample is σ times the root of χ² with `redundant`
+/// degrees of freedom, one or two. `parameters` were fitted to all samples. Returns at least
 /// `floor_m`.
 double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, double floor_m) {
   const double errors = redundant * static_cast<double>(norms_m.size());
@@ -40,15 +40,14 @@ double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, do
   return std::max(floor_m, median(norms_m.begin(), norms_m.end()) / median_of_chi / left);
 }
 
-/// The fitted parameters and their errors.
 struct Fit {
   const Model& model;
   const std::vector<StringVector>& lengths_m;
   Bundle bundle;
   double sigma_m = 0;        ///< standard deviation of one length
   Eigen::MatrixXd errors_m;  ///< a row for each sample, a column for each string
-  Eigen::VectorXd norms_m;   ///< of the samples' errors
-  Eigen::VectorXd weights;   ///< Huber's
+  Eigen::VectorXd norms_m;   ///< norm of the errors of each sample
+  Eigen::VectorXd weights;   ///< Huber's weight of each sample
 
   int redundant() const { return model.strings() - 6; }
 
@@ -63,7 +62,7 @@ struct Fit {
     weights = (kHuber * sigma_m / norms_m.array().max(kHuber * sigma_m)).matrix();
   }
 
-  /// Noise of all samples; those in the tails count with their weights.
+  /// The noise of all samples, in which outliers count with their weights.
   double noise_m(double floor_m) const {
     const double left = redundant() * weights.sum() - model.size();
     if (left <= 0) return floor_m;
@@ -71,7 +70,7 @@ struct Fit {
   }
 };
 
-/// Adapts the corner of Huber's function to the noise that is found.
+/// Adapts the corner of Huber's function to the measured noise.
 void refine(double floor_m, Fit& fit) {
   fit.look_at_errors(floor_m);
   for (int i = 0; i < kMaxRescalings; ++i) {
@@ -82,9 +81,9 @@ void refine(double floor_m, Fit& fit) {
   }
 }
 
-/// Factor by which standard deviations grow because errors of successive samples (rows) are
-/// correlated, as those of a wrong model are. Computed as for a first-order autoregression with
-/// their correlation. It is one if the correlation is no larger than by chance.
+/// The factor by which standard deviations grow because the errors of successive samples (rows) are
+/// correlated, as those of a wrong model are. The factor is computed as for a first-order
+/// autoregression with that correlation, and is 1 if the correlation may be chance.
 double correlation_factor(const Fit& fit) {
   constexpr double kMaxCorrelation = 0.9999;
   const Eigen::MatrixXd weighted = fit.weights.asDiagonal() * fit.errors_m;
@@ -93,7 +92,7 @@ double correlation_factor(const Fit& fit) {
   if (pairs < 1 || !(total > 0)) return 1;
   const double product = weighted.topRows(pairs).cwiseProduct(weighted.bottomRows(pairs)).sum();
   const double correlation = product / total;
-  // Three standard deviations of the correlation of independent errors.
+  // The correlation of independent errors stays below three standard deviations.
   const double chance = 3 / std::sqrt(static_cast<double>(fit.redundant() * pairs));
   if (correlation <= chance) return 1;
   const double bounded = std::min(correlation, kMaxCorrelation);
@@ -101,10 +100,10 @@ double correlation_factor(const Fit& fit) {
 }
 
 /// The standard deviation of the combination of parameters that the samples determine worst,
-/// relative to that of a length, if the errors of successive samples are independent. Infinite
-/// where they determine nothing. The pose of each sample is eliminated by an orthogonal projection,
-/// which is the Schur complement of bundle adjustment as a square root: it stays accurate where the
-/// information matrix is singular and its inverse does not exist.
+/// relative to that of a length, for independent errors of successive samples. Infinite where the
+/// samples determine nothing. An orthogonal projection eliminates the pose of each sample. This is
+/// the Schur complement of bundle adjustment as a square root, and stays accurate where the
+/// information matrix is singular and has no inverse.
 double largest_sd(const Fit& fit) {
   // Singular values below this fraction of the largest one are rounding errors.
   constexpr double kRank = 1e-10;
@@ -145,8 +144,8 @@ void describe_motion(const std::vector<Pose>& poses, Result& result) {
   result.turned_rad = turns.sizes() / 2;
 }
 
-/// Whether half of the samples have larger errors than are tolerable in a tick, or the last ones do
-/// not fit.
+/// Returns whether half of the samples have larger errors than are tolerable in a tick, or the last
+/// samples do not fit.
 bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
   Eigen::VectorXd norms_m = fit.norms_m;
   const double typical_m = median(norms_m.begin(), norms_m.end()) / std::sqrt(fit.model.strings());
@@ -158,7 +157,8 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 
 Result calibrate(const Profile& profile, const CountSamples& counts, const Settings& settings) {
   check_samples(profile, counts, kMinStrings);
-  // Only the offsets at first: a hand misses the centre by more than exits and scale are off.
+  // The first fit estimates only the offsets: a hand misses the centre by more than exits and scale
+  // are off.
   const Model offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
   const double rounding_m = rounding_sd_m(

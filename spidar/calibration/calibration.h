@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Determines the lengths of the strings at which the counters are zero, because encoders are
-/// incremental and boards have no homing.
+/// Determines the lengths of the strings at zero count, because encoders are incremental and boards
+/// have no homing.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace spidar::calibration {
 
-/// Encoder counts as read from the board: a row for each sample in the order of time, a column for
-/// each string.
+/// Encoder counts as read from the board: one row per sample in the order of time, one column per
+/// string.
 using CountSamples = Eigen::MatrixXd;
 
-/// Parameters that are estimated in addition to the offsets.
+/// The parameters that are estimated in addition to the offsets.
 struct Settings {
   bool free_exits = false;  ///< the points at which the strings leave the frame
   bool free_scale = false;  ///< one factor on every metres_per_count
@@ -26,61 +26,63 @@ struct Settings {
 
 enum class Status {
   kSolved,
-  /// The motion does not determine everything that was asked for.
+  /// The motion does not determine all parameters that were requested.
   kUndetermined,
-  /// No values make the lengths agree, or their remaining errors are not noise: the geometry or the
-  /// scale is wrong, a string slips, or the first sample was too far from the centre.
+  /// No parameters make the lengths agree, or the remaining errors are not noise: the geometry or
+  /// the scale is wrong, a string slips, or the first sample was too far from the centre.
   kContradiction,
 };
 
 struct Result {
   Status status = Status::kContradiction;
-  Settings estimated;  ///< what was estimated in addition to the offsets
+  Settings estimated;  ///< the parameters that were estimated in addition to the offsets
 
-  /// Length at zero count minus length at the centre, as in StringDrive::home_offset_m. The length
-  /// at the centre is that for the exits below.
+  /// Length at zero count minus length at the centre, as in StringDrive::home_offset_m, for the
+  /// exits below.
   StringVector home_offset_m = StringVector::Zero();
   double scale = 1;  ///< factor on every metres_per_count
-  /// Exits in D. Free exits neither shift nor turn as a whole relative to those of the profile,
+  /// Exits in D. Free exits neither shift nor turn as a whole relative to the profile's exits,
   /// because that would be a different choice of D.
   std::array<Eigen::Vector3d, kMaxStrings> exit_m{};
 
   /// The pose of the grip at which the counters were zero.
   Pose cleared_at;
 
-  int samples = 0;        ///< used; successive samples that agree are averaged
-  double residual_m = 0;  ///< root mean square length error over samples and strings, including
-                          ///< outliers; PoseResult::residual_m is the same for one sample
+  int samples = 0;  ///< successive samples that agree are averaged and count once
+  /// Root mean square length error over samples and strings, including outliers;
+  /// PoseResult::residual_m is the same for one sample.
+  double residual_m = 0;
   /// How far the grip was moved and turned: half the range for each axis of D.
   Eigen::Vector3d moved_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d turned_rad = Eigen::Vector3d::Zero();
 };
 
-/// Largest permitted standard deviation of any combination of what is estimated, equal to the error
-/// of a length that PoseSolver treats as a fault.
+/// The largest permitted standard deviation of any combination of parameters: the length error that
+/// PoseSolver treats as a fault.
 inline constexpr double kMaxSd_m = 50e-6;
 
 /// Minimum number of samples, both for a moved and for a held grip.
 inline constexpr int kMinSamples = 20;
 
 /// Calibrates from a grip that is moved and turned about. A sample has eight lengths and its pose
-/// six unknowns, which leaves two equations for the parameters that all samples share. Uses bundle
-/// adjustment of poses and shared parameters, robust (Huber) on the samples. The first sample must
-/// be within some 2 cm and 20 degrees of the centre; where the counters were cleared does not
-/// matter.
+/// six unknowns, which leaves two equations for the parameters that all samples share. The method
+/// is bundle adjustment of poses and shared parameters, robust (Huber) on the samples. The first
+/// sample must be within some 2 cm and 20 degrees of the centre; the counters may have been cleared
+/// anywhere.
 ///
-/// Throws std::invalid_argument when the profile has fewer than seven strings, or a count is not
-/// finite, or there are fewer than kMinSamples, or not as many columns as strings.
+/// Throws std::invalid_argument when the profile has fewer than seven strings, when a count is not
+/// finite, when there are fewer than kMinSamples samples, or when the columns are not as many as
+/// the strings.
 Result calibrate(const Profile& profile, const CountSamples& counts, const Settings& settings = {});
 
-/// Calibrates only the offsets, from a grip that is held still at the centre without rotation.
-/// They are as accurate as the hand finds the centre.
+/// Calibrates only the offsets, from a grip that is held still at the centre without rotation. The
+/// offsets are as accurate as the hand finds the centre.
 ///
-/// Throws std::invalid_argument as calibrate(), with any number of strings, and when a count moves
-/// by more than kMaxHeldRange_m.
+/// Throws std::invalid_argument as calibrate() does, but accepts any number of strings. Also throws
+/// when a count moves by more than kMaxHeldRange_m.
 Result calibrate_at_centre(const Profile& profile, const CountSamples& counts);
 
-/// Tremor of a hand that holds still is smaller than this.
+/// The tremor of a hand that holds still is smaller than this.
 inline constexpr double kMaxHeldRange_m = 3e-3;
 
 /// Returns the profile with the result, its residual and provenance. `how` describes the

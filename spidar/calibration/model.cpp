@@ -15,7 +15,7 @@ namespace spidar::calibration {
 namespace {
 
 /// Displacements of all exits, stacked, that are orthogonal to shifts and small rotations of the
-/// whole frame.
+/// frame.
 Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
   const int rows = 3 * geometry.count;
   Eigen::MatrixXd rigid(6, rows);
@@ -80,7 +80,7 @@ Eigen::VectorXd Model::length_errors_m(const Eigen::VectorXd& parameters,
                                   parameters.head(n) - scale(parameters) * paid_out_m.head(n);
   if (!derivatives) return error_m;
 
-  // A string shortens by its column of the structure matrix times the twist (virtual work).
+  // By virtual work, a string shortens by its column of the structure matrix times the twist.
   const StructureMatrix W = structure_matrix(moved, pose);
   derivatives->by_twist = -W.leftCols(n).transpose();
   Eigen::MatrixXd& by_parameter = derivatives->by_parameter;
@@ -114,7 +114,7 @@ Pose to_pose(const double* block) {
           Eigen::Map<const Eigen::Quaterniond>(block + 3)};
 }
 
-/// One sample: one residual for each string, in units of `unit_m`.
+/// The residuals of one sample: one for each string, in units of `unit_m`.
 class SampleErrors final : public ceres::CostFunction {
  public:
   SampleErrors(const Model& model, const StringVector& paid_out_m, double unit_m)
@@ -134,7 +134,7 @@ class SampleErrors final : public ceres::CostFunction {
         unit_m_;
     if (!jacobians) return true;
     if (jacobians[0]) {
-      // A rotation of the manifold is half a rotation vector. Ceres multiplies by dPlus, whose left
+      // The manifold's rotation is half a rotation vector. Ceres multiplies by dPlus, whose left
       // inverse is dMinus.
       Eigen::Matrix<double, 6, kPoseSize, Eigen::RowMajor> minus;
       if (!PoseManifold().MinusJacobian(blocks[0], minus.data())) return false;
@@ -183,7 +183,7 @@ void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, dou
   options.max_num_iterations = max_iterations;
   options.function_tolerance = 1e-9;
   options.logging_type = ceres::SILENT;
-  // Of a solve that fails, the start is left, whose residuals the caller judges.
+  // A solve that fails leaves the start, whose residuals the caller judges.
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
   for (size_t k = 0; k < blocks.size(); ++k) bundle.poses[k] = to_pose(blocks[k].data());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// String lengths as a function of the grip's pose and of the parameters that calibration
-/// estimates, and the fit of both to measured lengths, with Ceres.
+/// String lengths as a function of the grip's pose and of the calibration's parameters, and the fit
+/// of both to measured lengths, with Ceres.
 #pragma once
 
 #include <string>
@@ -15,11 +15,10 @@
 
 namespace spidar::calibration {
 
-/// The parameters that all samples share, all in metres: an offset for each string; the scale
-/// minus one, times the mean length at the centre; the exits along the directions that neither
-/// shift nor turn the frame as a whole. (The position of the frame is not observable, because
-/// moving all exits and all poses together changes no length. This is the choice of "inner
-/// constraints" in geodesy.)
+/// The parameters that all samples share, all in metres: an offset for each string; the scale minus
+/// one, times the mean length at the centre; the exits along the directions that neither shift nor
+/// turn the frame as a whole. (Lengths do not show the position of the frame, because moving all
+/// exits and all poses together changes no length. Geodesy calls this choice "inner constraints".)
 class Model {
  public:
   Model(const Profile& profile, const Settings& settings);
@@ -29,10 +28,8 @@ class Model {
 
   StringGeometry geometry(const Eigen::VectorXd& parameters) const;
 
-  /// Factor on all metres_per_count.
   double scale(const Eigen::VectorXd& parameters) const;
 
-  /// StringDrive::home_offset_m.
   StringVector home_offset_m(const Eigen::VectorXd& parameters) const;
 
   /// Change of the lengths since the counters were zero, with the scale of the profile.
@@ -58,23 +55,23 @@ class Model {
 };
 
 struct Bundle {
-  Eigen::VectorXd parameters;  ///< of the model
-  std::vector<Pose> poses;     ///< one for each sample
+  Eigen::VectorXd parameters;
+  std::vector<Pose> poses;  ///< one for each sample
 };
 
 /// Minimises Σ ρ(‖length errors of a sample‖² / σ²), starting from `bundle`. ρ is Huber's loss with
-/// its corner at kHuber. All strings of a sample have less weight if they contradict each other,
-/// because six unknowns and eight lengths do not determine which string is at fault. `paid_out_m`
-/// has one entry for each sample.
+/// its corner at kHuber. When the strings of a sample contradict each other, all of them weigh
+/// less, because eight lengths for six unknowns do not determine which string is at fault.
+/// `paid_out_m` has one entry for each sample.
 void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, double sigma_m,
             int max_iterations, Bundle& bundle);
 
-/// √5.99: exceeded by 5 % of the good samples, whose squared error is χ² with two degrees of
-/// freedom in units of σ².
+/// √5.99: 5 % of the good samples exceed this norm, whose square is χ² with two degrees of freedom
+/// in units of σ².
 inline constexpr double kHuber = 2.448;
 
-/// A starting bundle: assumes that the first sample is at the centre, and follows the grip from
-/// there.
+/// Returns a starting bundle, which assumes that the first sample is at the centre and follows the
+/// grip from there.
 Bundle from_the_centre(const Model& model, const std::vector<StringVector>& paid_out_m);
 
 }  // namespace spidar::calibration

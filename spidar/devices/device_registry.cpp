@@ -10,7 +10,8 @@
 
 namespace spidar {
 
-// Of each room: the function that returns its kinds. Meson makes rooms.h: ROOM(uart) ROOM(sound) …
+// Declares the function of each device folder that returns its kinds. Meson generates rooms.h:
+// ROOM(uart) ROOM(sound) …
 #define ROOM(name) std::vector<DeviceKind> name##_kinds();
 SPIDAR_ROOMS
 #undef ROOM
@@ -31,7 +32,8 @@ std::vector<DeviceKind> all_kinds() {
 }  // namespace
 
 const std::vector<DeviceKind>& devices() {
-  // Never destroyed: when a player exits, another thread may still be reopening its board.
+  // The list is never destroyed: when a player exits, another thread may still be reopening its
+  // board.
   static const auto& kinds = *new std::vector<DeviceKind>(all_kinds());
   return kinds;
 }

@@ -13,30 +13,29 @@
 
 namespace spidar {
 
-/// All kinds, in the order in which they are listed and device=auto tries them: those with strings,
-/// then the others.
+/// Returns all kinds, in the order in which they are listed and device=auto tries them: first those
+/// with strings, then the others.
 const std::vector<DeviceKind>& devices();
-/// Those on USB.
 std::vector<DeviceKind> usb_kinds();
 
-/// A device's name, split at its first colon.
 struct DeviceName {
   explicit DeviceName(const std::string& text);
 
   std::string device;
   std::string rest;
-  bool has_end = true;  ///< there is something after the colon, if there is one
+  bool has_end = true;  ///< whether something follows the colon, if there is one
 };
 
-/// The kinds that `device`, the part of a name before the colon, may mean.
+/// Returns the kinds that `device`, the part of a name before the colon, may mean.
 std::vector<const DeviceKind*> kinds_called(const std::string& device);
 
-/// The kind that a name like "sim:sh4" simulates. Null if there is no such board, and for "sim".
+/// Returns the kind that a name like "sim:sh4" simulates; null if there is no such board, and for
+/// "sim".
 const DeviceKind* simulated_kind(const DeviceName& name);
 
-/// The driver of a board with its emulation behind it, which needs no thread and no guardian.
-/// Throws DeviceError when the board cannot drive the profile, and std::invalid_argument as
-/// SimulatedDevice does.
+/// Returns the driver of a board with its emulation behind it, which needs neither a thread nor a
+/// guardian. Throws DeviceError when the board cannot drive the profile, and std::invalid_argument
+/// as SimulatedDevice does.
 boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
                                  const Profile& profile,
                                  const emulated::SimulatedMechanics& mechanics = {});

@@ -26,7 +26,7 @@ DeviceIdentity UsbSearch::Candidate::identity() const {
   return {std::string(kind->title) + " (" + kind->usb.text() + ")", device.serial, device.path};
 }
 
-/// All devices of these kinds, those with the path or serial number in the id first.
+/// Returns all devices of these kinds, first those with the path or serial number in the id.
 std::vector<UsbSearch::Candidate> UsbSearch::plugged_in() const {
   std::vector<Candidate> all;
   for (const DeviceKind* kind : kinds_) {
@@ -43,7 +43,8 @@ bool UsbSearch::is_named(const Candidate& candidate) const {
   return !id_.empty() && (candidate.device.path == id_ || candidate.device.serial == id_);
 }
 
-/// At least one: those with the path or serial number in the id; without one, all of them.
+/// Returns at least one device: those with the path or serial number in the id or, without an id,
+/// all.
 std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   std::vector<Candidate> found = plugged_in();
   if (!found.empty() && is_named(found.front())) {
@@ -62,12 +63,11 @@ std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   return found;
 }
 
-/// Whether the id identifies the board.
 bool UsbSearch::is_clear(const std::vector<Candidate>& found) const {
   return found.size() == 1 && (is_named(found.front()) || id_.empty());
 }
 
-/// Whether only the boards themselves tell.
+/// Returns whether only the boards themselves can tell which one is meant.
 bool UsbSearch::is_to_ask(const std::vector<Candidate>& found) const {
   return found.front().kind->usb.shared || rotary_of(id_) >= 0;
 }
@@ -91,7 +91,7 @@ void UsbSearch::open(const std::function<int(const Candidate&)>& open,
   first_.require(name_, opened.identity());
 }
 
-/// Boards without a serial number are told from each other by their switches, too.
+/// The rotary switch also distinguishes boards without a serial number.
 void UsbSearch::open_again(const std::function<int(const Candidate&)>& open) const {
   const std::vector<Candidate> found = plugged_in();
   const auto same = std::find_if(found.begin(), found.end(), [&](const Candidate& candidate) {
@@ -110,8 +110,8 @@ void UsbSearch::open_again(const std::function<int(const Candidate&)>& open) con
   throw first_.other(name_, changed);
 }
 
-/// Asks each candidate and keeps the one that reports the wanted rotary switch. Without an id,
-/// keeps any that reports the right kind of device.
+/// Opens the candidates until one reports the wanted rotary switch. Without an id, accepts any
+/// candidate that reports the right kind of device.
 UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& found,
                                               const std::function<int(const Candidate&)>& open,
                                               const std::function<void()>& close) const {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the board on USB that is plugged in and meant, in every open().
 #pragma once
 
 #include <cstdint>
@@ -16,11 +15,12 @@
 
 namespace spidar {
 
-/// Position of the rotary switch that `id` of usb:ID means; −1 when it is none.
+/// Returns the rotary switch that `id` of usb:ID means; −1 when `id` is not one.
 int rotary_of(const std::string& id);
 
-/// To be used for every opening, because the address changes when a device is plugged in again.
-/// Later openings find the device of the first one, wherever it is if it has a serial number.
+/// Finds a board on USB again at every opening, because the address changes when a device is
+/// plugged in again. Later openings find the device of the first one, on any port if it has a
+/// serial number.
 class UsbSearch {
  public:
   struct Candidate {
@@ -30,15 +30,15 @@ class UsbSearch {
     DeviceIdentity identity() const;
   };
 
-  /// `id`: bus path, serial number, or position of the rotary switch, 0 … 15. If empty, there must
+  /// `id` is a bus path, a serial number, or a rotary switch, 0 … 15. If `id` is empty, there must
   /// be only one device.
   UsbSearch(std::vector<const DeviceKind*> kinds, std::string name, std::string id);
 
   /// Opens the device that is meant. `open` opens a candidate and returns its rotary switch, −1
-  /// without one; `close` closes one that is not meant, or did not open. Throws DeviceError, which
-  /// lists what there is.
+  /// without one; `close` closes a candidate that is not meant or did not open. Throws DeviceError,
+  /// which lists the devices that there are.
   void open(const std::function<int(const Candidate&)>& open, const std::function<void()>& close);
-  /// Throws as open() would before it opens anything.
+  /// Throws as open() would, without opening anything.
   void require_one() const;
 
  private:
@@ -59,10 +59,10 @@ class UsbSearch {
   int first_rotary_ = -1;
 };
 
-/// Makes a board of each of `kinds`, all of which are of this type, and returns the function with
+/// Makes a board of each of `kinds`, all of which have this type, and returns the function with
 /// which LinkThread opens one of them, see UsbSearch. Throws DeviceError when the boards cannot
-/// drive the profile; so does the result when the profile is for another kind of board than the one
-/// that is found.
+/// drive the profile; so does the function when the profile is for another kind of board than the
+/// one that is found.
 template <typename BoardType>
 std::function<BoardType&()> usb_opener(const std::string& name, const std::string& id,
                                        const Profile& profile,

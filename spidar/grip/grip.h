@@ -21,42 +21,43 @@
 namespace spidar {
 
 struct GripAbilities {
-  /// Axes of the force that are rendered: to the right, up, towards the viewer.
+  /// The axes of the force that are rendered: right, up, towards the viewer.
   std::array<bool, 3> force{true, true, true};
 
   bool torque = true;
-  /// Otherwise only the size of the force is rendered, in these axes.
+  /// If false, only the magnitude of the force is rendered, in these axes.
   bool direction = true;
-  std::array<bool, 3> position{true, true, true};  ///< axes in which it is measured
+  std::array<bool, 3> position{true, true, true};  ///< the axes that are measured
   double largest_force_N = 0;                      ///< in every direction that is rendered
   int rate_Hz = 1000;                              ///< forces a second, at most
   int buttons = 0;                                 ///< at most 32
-  /// How far the grip is to move from its middle to each side; 0: as far as in the profile.
+  /// How far the grip moves from its middle to each side; 0: as far as in the profile.
   std::array<double, 3> half_room_m{};
 
   /// Whether the grip can touch a picture, whose depth is rendered along the third axis.
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
-  /// The largest force limit: what the grip gives, and at least the default, which all accept.
+  /// The largest force limit: what the grip exerts, and at least the default, which all devices
+  /// accept.
   double max_limit_N() const noexcept { return std::max(kDefaultForce_N, largest_force_N); }
 };
 
 /// The properties of a grip that do not change while it is open.
 struct GripTraits {
   bool has_strings = true;  ///< it has the strings of a profile, which pull
-  bool can_fly = true;      ///< the wrench can throw a grip that nobody holds
-  double radius_m = 0;      ///< at which a torque counts as a force; 0: torques do not count
+  bool can_fly = true;      ///< the wrench can throw a released grip
+  double radius_m = 0;      ///< radius at which a torque counts as a force; 0: torques do not count
   double drive_lag_s = 0;   ///< from a command to the force that follows
-  GripBody body{};          ///< of a grip that turns
+  GripBody body{};          ///< mass and inertia of a grip that turns
 
   /// The largest force limit, whoever sets it, with answers that take `late_s` longer than a tick:
-  /// a grip that is let go must not be thrown.
+  /// a released grip must not be thrown.
   double most_force_N(double late_s = 0) const noexcept {
     return can_fly ? released_force_N(drive_lag_s, late_s)
                    : std::numeric_limits<double>::infinity();
   }
-  /// The same for the torque.
+  /// The largest torque limit, in the same way.
   double most_torque_Nm(double late_s = 0) const noexcept {
     return can_fly ? released_torque_Nm(body, radius_m, drive_lag_s, late_s)
                    : std::numeric_limits<double>::infinity();
@@ -65,14 +66,14 @@ struct GripTraits {
 
 /// The command that a grip receives in a tick.
 struct GripCommand {
-  Wrench wrench;  ///< on the hand, within the limits; except by the brake, it changes no faster
-  /// The brake acts, see GripBrake: a force that throws the grip ends at once, and a damper begins
-  /// at once. A force that accelerates the grip rises no faster than otherwise.
+  Wrench wrench;  ///< on the hand, within the limits; only the brake changes it faster
+  /// Whether the brake acts, see GripBrake: a force that throws the grip ends at once, and damping
+  /// begins at once. A force that accelerates the grip rises no faster than otherwise.
   bool brakes = false;
-  /// The wrench is wanted, and the pose is known. Otherwise it is on its way to rest.
+  /// Whether a wrench is wanted and the pose is known. Otherwise the wrench is ramping to zero.
   bool fresh = false;
-  /// Fraction of everything that pulls, 0 … 1: it rises after opening and falls before closing. At
-  /// 0 the motors are off.
+  /// The fraction of every tension and force, 0 … 1, which rises after opening and falls before
+  /// closing. At 0 the motors are off.
   double power = 0;
   SafetyLimits limits;
   double dt_s = 0;  ///< since the last tick
@@ -82,50 +83,50 @@ struct GripCommand {
 /// The state of a grip after a tick, as far as it is known. The members before `pose` result from
 /// the last command.
 struct GripReport {
-  /// The wrench that the hand gets. Computed for `pose`, even if the pose is no longer known.
+  /// The wrench that the hand gets, computed for `pose` even if the pose is no longer known.
   Wrench delivered;
   StringVector tension_N = StringVector::Zero();  ///< commanded; zero for a grip without strings
-  bool held_back = false;  ///< less than was wanted: a string is left out or a motor is warm
+  bool held_back = false;  ///< less than wanted, because a string is left out or a motor is warm
 
   Pose pose;             ///< from the newest good reading
   uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
   PoseFault pose_fault = PoseFault::kNotYet;
   double pose_residual_m = 0;
-  int faulty_string = -1;  ///< whose length fits no pose that the others allow; −1 if all fit
+  int faulty_string = -1;  ///< the string whose length contradicts the others; −1 if all fit
   double motor_heat = 0;   ///< of the warmest motor, see MotorHeat
 };
 
-/// A GripReport, with what only the loop needs.
+/// A GripReport with what only the loop needs.
 struct GripReading : GripReport {
   Wrench at_rest;              ///< the part of `delivered` that strings exert without a command
-  double stored_J = 0;         ///< the energy that the strings at rest give back on the way home
-  GripMotion motion;           ///< of the poses, also outside the frame; at rest without any
+  double stored_J = 0;         ///< energy that the strings at rest return on the way to the centre
+  GripMotion motion;           ///< of the poses, also outside the frame; at rest without poses
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
-  int64_t lag_ns = 0;          ///< from a command to when it acts, if the device reports it
+  int64_t lag_ns = 0;          ///< from a command to its effect, if the device reports it
   uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
 
   bool knows_pose() const noexcept { return pose_fault == PoseFault::kNone; }
 };
 
-/// The grip that a hand holds, with the device behind it. It protects the device and everything
-/// between device and hand; HapticLoop, above it, protects the hand (docs/safety.md).
+/// The grip that a hand holds, with the device behind it. This class protects the device and
+/// everything between device and hand; HapticLoop, above it, protects the hand (docs/safety.md).
 class Grip : public Openable {
  public:
   /// `device` outlives the grip, or belongs to it.
   explicit Grip(Openable& device) : Openable(device.name()), device_(device) {}
 
-  /// The given time, s, has passed; also while the device is lost.
+  /// Tells the grip that time, s, has passed; also while the device is lost.
   virtual void advance(double) noexcept {}
 
-  /// To be called before the wrench of a tick is found: forgets a pose that is too old.
+  /// Forgets a pose that is too old. Call this before the wrench of a tick is computed.
   virtual void check_age(int64_t now_ns) noexcept = 0;
 
-  /// One cycle: a wrench out, a pose in. Called at 1 kHz: no allocation, no lock, no exception. If
-  /// the result is not kNone, the device may have received nothing: the next command continues from
-  /// the last one that was answered. The pose can become known only while `command.wrench` is zero.
+  /// Performs one cycle at 1 kHz: no allocation, no lock, no exception. If the result is not kNone,
+  /// the device may have received nothing: the next command continues from the last one that was
+  /// answered. The pose can become known only while `command.wrench` is zero.
   virtual LinkFault exchange(const GripCommand& command) noexcept = 0;
 
-  /// What is known after the last call.
+  /// Returns the reading after the last call.
   virtual const GripReading& reading() const noexcept = 0;
 
   void close() noexcept final { device_.close(); }
@@ -134,10 +135,10 @@ class Grip : public Openable {
 
   virtual const GripTraits& traits() const noexcept = 0;
 
-  /// Until open(), the abilities of most devices of this kind. Any thread.
+  /// Until open(), these are the abilities of most devices of this kind. Any thread.
   virtual GripAbilities abilities() const noexcept = 0;
-  /// A message for the user about a device that works, but not as it should; empty if it does. Any
-  /// thread.
+  /// Returns a message for the user about a device that works, but not as it should; empty if all
+  /// is well. Any thread.
   virtual std::string warning() const { return {}; }
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The velocity of the grip.
 #pragma once
 
 #include <cmath>
@@ -15,37 +14,36 @@
 namespace spidar {
 
 /// 1 − exp(−x) for x = `dt_s` / `time_s`: the fraction of the way that a first-order low-pass goes.
-/// Computed with a series of third order, because a tick needs five of them; at x = 0.5 it is 0.3 %
-/// too small.
+/// The series of third order is 0.3 % too small at x = 0.5, and cheaper; a tick needs five values.
 inline double fraction_passed(double dt_s, double time_s) noexcept {
   if (!(time_s > 0)) return 1;
   const double x = dt_s / time_s;
   return 1 - 1 / (1 + x * (1 + x * (0.5 + x / 6)));
 }
 
-/// Linear and angular velocity in the device frame.
 struct GripVelocity {
   Eigen::Vector3d linear_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_rad_s = Eigen::Vector3d::Zero();
 };
 
-/// Estimates the velocity from poses and the times at which they were read.
+/// Estimates the velocity of the grip from poses and the times at which they were read.
 ///
-/// velocity() is a first-order low-pass of the differences, exact for any intervals, and kLag_s
-/// behind the newest pose. A coordinate with independent errors of standard deviation σ has a
-/// velocity with an error of 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm) gives 1.5 mm/s.
+/// velocity() is a first-order low-pass of the differences, exact for any intervals, and lags the
+/// newest pose by kLag_s. For coordinates with independent errors of standard deviation σ, the
+/// error of the velocity is 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm) gives 1.5 mm/s.
 ///
 /// velocity_in() fits a parabola to the poses of the last kFitted_ns by least squares. No single
-/// interval decides, because one of 0.05 ms follows a late tick. The error of poses and the
-/// acceleration of a grip bound what few or crowded poses can say; without poses, the result is
-/// velocity().
+/// interval decides, because after a late tick an interval may last only 0.05 ms. The error of
+/// poses and the possible acceleration of a grip limit how far the result departs from velocity()
+/// when poses are few or crowded; without poses, the result is velocity().
 class GripMotion {
  public:
   static constexpr double kCutoff_Hz = 60;
-  /// Half a tick of the difference, and the time constant of the low-pass.
+  /// Half a tick, which is the lag of the difference, and the time constant of the low-pass.
   static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
-  /// The grip was at `pose` at `at_ns`. The same time again, or an earlier one, is no new pose.
+  /// Tells that the grip was at `pose` at `at_ns`. A time that is not later than the last one is
+  /// ignored.
   void update(const Pose& pose, int64_t at_ns) noexcept {
     if (!poses_.empty()) {
       const double dt_s = 1e-9 * static_cast<double>(at_ns - poses_[0].at_ns);
@@ -56,7 +54,7 @@ class GripMotion {
       velocity_.angular_rad_s +=
           fraction * (turn_rad(poses_[0].pose, pose) / dt_s - velocity_.angular_rad_s);
     }
-    // What is read in a burst replaces itself, so that it does not displace the poses before it.
+    // Poses in a burst replace each other, so that they do not displace the poses before the burst.
     if (poses_.size() > 1 && at_ns - poses_[1].at_ns < kApart_ns) {
       poses_[0] = {pose, at_ns};
     } else {
@@ -64,13 +62,13 @@ class GripMotion {
     }
   }
 
-  /// The pose is not known: the velocity is zero until there are two poses again.
+  /// Tells that the pose is unknown: the velocity is zero until there are two poses again.
   void reset() noexcept { *this = {}; }
 
   bool is_known() const noexcept { return !poses_.empty(); }
   const GripVelocity& velocity() const noexcept { return velocity_; }
 
-  /// Where a grip at `pose` is `ahead_s` later at the present velocity.
+  /// Returns where a grip at `pose` is `ahead_s` later at the present velocity.
   Pose pose_in(const Pose& pose, double ahead_s) const noexcept {
     Eigen::Quaterniond turn;
     turn.w() = 1;
@@ -79,10 +77,11 @@ class GripMotion {
             (turn * pose.orientation).normalized()};
   }
 
-  /// The velocity `ahead_s` after the newest pose, with the acceleration that the poses show.
+  /// Returns the velocity `ahead_s` after the newest pose, with the acceleration that the poses
+  /// show.
   GripVelocity velocity_in(double ahead_s) const noexcept {
-    // The normal equations of way = c + a t + b h: h is t²/2, and way is how far a pose is from
-    // where velocity_ would have had it. The means are subtracted below, which eliminates c.
+    // The normal equations of way = c + a t + b h: h is t²/2, and way is the distance of a pose
+    // from where velocity_ would have led. Subtracting the means below eliminates c.
     double n = 0, t_sum = 0, h_sum = 0, tt = 0, th = 0, hh = 0;
     Six way_sum = Six::Zero(), t_way = Six::Zero(), h_way = Six::Zero();
     for (size_t age = 0; age < poses_.size(); ++age) {
@@ -108,7 +107,7 @@ class GripMotion {
     return {velocity_.linear_m_s + then.head<3>(), velocity_.angular_rad_s + then.tail<3>()};
   }
 
-  /// The rotation vector: for the small angles of a few ticks, twice the vector part.
+  /// The rotation vector, which for the small angles of a few ticks is twice the vector part.
   static Eigen::Vector3d turn_rad(const Pose& from, const Pose& to) noexcept {
     const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
     return (turn.w() < 0 ? -2.0 : 2.0) * turn.vec();
@@ -121,14 +120,16 @@ class GripMotion {
     int64_t at_ns = 0;
   };
 
-  static constexpr int64_t kFitted_ns = 6'500'000;  ///< seven poses, if all ticks are in time
+  /// The time of seven poses, if all ticks are in time.
+  static constexpr int64_t kFitted_ns = 6'500'000;
   static constexpr int64_t kApart_ns =
       500'000;  ///< between a pose and the next but one, so that kPoses suffice
   static constexpr size_t kPoses = 2 * kFitted_ns / kApart_ns;
   /// Two encoder steps, or what a hand at 0.5 m/s moves in 0.1 ms, the error of a reading's time.
   static constexpr double kPoseError_m = 50e-6;
-  /// The largest acceleration, by 3 N on kLightestGrip_kg, and how far the velocity gets from
-  /// velocity() within its lag. Turns have the same proportions at the radius of a grip.
+  /// The largest acceleration, of 3 N on kLightestGrip_kg, which limits how far the velocity
+  /// departs from velocity() within its lag. The limit of rotations follows from the radius of a
+  /// grip.
   static constexpr double kMax_m_s2 = 90;
   static constexpr double kMax_m_s = 0.3;
 

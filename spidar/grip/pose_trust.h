@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the pose of a grip can be trusted, and why not.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@ enum class PoseFault {
   kFrozen,     ///< no counter moves, although the force on the grip has changed
 };
 
-/// For messages: "the string lengths fit no pose", …
+/// Returns a text for messages: "the string lengths fit no pose", …
 constexpr const char* to_string(PoseFault fault) noexcept {
   switch (fault) {
     case PoseFault::kNone:
@@ -47,45 +46,47 @@ constexpr const char* to_string(PoseFault fault) noexcept {
   return "unknown";
 }
 
-/// Trust is lost after kMaxMisses readings without a good pose and returns after kGoodPoses good
-/// poses in a row.
+/// Whether the pose of a grip can be trusted. Trust ends after kMaxMisses readings without a good
+/// pose and returns after kGoodPoses good poses in a row.
 class PoseTrust {
  public:
-  /// Number of ticks in a row that may pass without a good pose; they use the previous pose.
+  /// The number of ticks in a row that may pass without a good pose; they use the previous pose.
   static constexpr int kMaxMisses = 5;
-  /// The same limit as a time, in case the ticks themselves are late.
+  /// The same limit as a time, for ticks that are late themselves.
   static constexpr int64_t kPoseTimeout_ns = 50'000'000;
-  /// Good poses in a row before the pose is trusted again.
+  /// The number of good poses in a row before the pose is trusted again.
   static constexpr int kGoodPoses = 20;
   /// No hand is faster.
   static constexpr double kMaxSpeed_m_s = 10;
   /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
   static constexpr double kJumpMargin_m = 2e-3;
 
-  /// Whether a grip that has moved by `moved_m` since its newest pose was faster than any hand.
+  /// Returns whether a grip that has moved by `moved_m` since its newest pose was faster than any
+  /// hand.
   bool is_jump(double moved_m, int64_t read_ns) const noexcept {
     const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
     return located_ && moved_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
-  /// When a pose was read in the tick of `now_ns`, if the device says `read_ns`. If that is no time
-  /// of this clock, or older than any trusted pose can be, the time of the tick counts.
+  /// Returns when a pose was read in the tick of `now_ns`, if the device says `read_ns`. A time
+  /// that is not of this clock, or older than any trusted pose can be, counts as the time of the
+  /// tick.
   static int64_t time_of(int64_t read_ns, int64_t now_ns) noexcept {
     return std::abs(read_ns - now_ns) < kPoseTimeout_ns ? read_ns : now_ns;
   }
-  /// A pose was read at this time, good or not.
+  /// Tells that a pose, good or not, was read at this time.
   void locate(int64_t read_ns) noexcept {
     located_ = true;
     located_ns_ = read_ns;
   }
-  /// The pose that was read is good. `may_trust`: trust may begin with it; existing trust is kept
-  /// in any case.
+  /// Tells that the pose is good. Trust may begin with it only if `may_trust`; existing trust
+  /// stays.
   void succeed(bool may_trust) noexcept {
     misses_ = 0;
     good_poses_ = std::min(good_poses_ + 1, kGoodPoses);
     if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
   }
-  /// There is no good pose. `at_once`: trust ends now, because the previous pose is not the present
-  /// one either.
+  /// Tells that there is no good pose. With `at_once`, trust ends now, because the previous pose is
+  /// no longer true either.
   void fail(PoseFault fault, bool at_once = false) noexcept {
     if (at_once) misses_ = kMaxMisses;
     good_poses_ = 0;
@@ -93,13 +94,12 @@ class PoseTrust {
     trusted_ = false;
     fault_ = fault;
   }
-  /// For a tick in which the device did not answer.
+  /// Tells that the device did not answer in a tick.
   void miss(int64_t now_ns) noexcept {
     check_age(now_ns);
     fail(PoseFault::kNoReading);
   }
-  /// To be called before the force of a tick is computed: withdraws trust if the newest pose is too
-  /// old.
+  /// Ends trust if the newest pose is too old. Call this before the force of a tick is computed.
   void check_age(int64_t now_ns) noexcept {
     if (!trusted_ || now_ns - located_ns_ <= kPoseTimeout_ns) return;
     trusted_ = false;
@@ -108,9 +108,8 @@ class PoseTrust {
   }
 
   bool trusted() const noexcept { return trusted_; }
-  /// kNone while trusted.
+  /// Returns kNone while the pose is trusted.
   PoseFault fault() const noexcept { return trusted_ ? PoseFault::kNone : fault_; }
-  /// When the newest pose was read.
   int64_t located_ns() const noexcept { return located_ns_; }
 
  private:

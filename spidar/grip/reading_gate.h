@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Leaves out single wrong readings, such as those in which a bit flipped on the way.
 #pragma once
 
 #include <cmath>
@@ -12,20 +11,22 @@
 
 namespace spidar {
 
-/// Judges readings of N lengths or coordinates, m, by where the last two lead. A reading that no
-/// hand explains is left out once: the one after it counts, so that what really happened is seen
-/// one tick later. For a brake, a grip that is 1 mm off for one tick moves at 1 m/s.
+/// Leaves out single wrong readings, such as those with a bit that flipped on the way. Judges
+/// readings of N lengths or coordinates, m, by extrapolating the last two. A reading that no hand
+/// explains is left out once; the next one counts, so that a true change is seen one tick later. To
+/// a brake, a grip that is 1 mm off for one tick seems to move at 1 m/s.
 template <int N>
 class ReadingGate {
  public:
   using Values = Eigen::Matrix<double, N, 1>;
 
-  /// Of a grip that a hand holds, or 10 N on the lightest one, 34 g. An impact exceeds it.
+  /// The acceleration of a grip that a hand holds, or of the lightest one, 34 g, at 10 N. An impact
+  /// exceeds it.
   static constexpr double kMax_m_s2 = 300;
-  /// Error of the time of a reading: half of an exchange.
+  /// The error of the time of a reading: half of an exchange.
   static constexpr double kTimeError_s = 0.3e-3;
 
-  /// `error_m`: how far a reading is off, at most.
+  /// `error_m` bounds the error of a reading.
   explicit ReadingGate(double error_m) noexcept : error_m_(error_m) {}
 
   void reset() noexcept {
@@ -33,15 +34,15 @@ class ReadingGate {
     left_out_ = false;
   }
 
-  /// Whether the reading counts. `unreliable`: the index of a value that is not judged; −1 if all
-  /// are.
+  /// Returns whether the reading counts. `unreliable` is the index of a value that is not judged;
+  /// −1 if all are.
   bool take(const Values& now_m, int64_t read_ns, int unreliable = -1) noexcept {
     const bool plausible = is_plausible(now_m, read_ns, unreliable);
     left_out_ = !plausible && !left_out_;
     if (left_out_) return false;
-    if (!plausible) taken_.clear();  // what was before does not lead to it
-    // A reading in a burst after a late tick replaces the one before: the velocity between them is
-    // but an error.
+    if (!plausible) taken_.clear();  // the earlier readings do not lead to this one
+    // A reading in a burst after a late tick replaces the one before, because their difference is
+    // mostly error.
     if (taken_.size() > 1 && read_ns - taken_[1].read_ns < kApart_ns) {
       taken_[0] = {now_m, read_ns};
     } else {
@@ -78,7 +79,7 @@ class ReadingGate {
 
   const double error_m_;
   History<Taken, 3> taken_;
-  bool left_out_ = false;  ///< the last reading was
+  bool left_out_ = false;  ///< whether the last reading was left out
 };
 
 }  // namespace spidar

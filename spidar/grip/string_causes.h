@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why strings do not answer as they should.
 #pragma once
 
 namespace spidar {
 
-/// What is wrong where strings do not answer as they should, the likeliest first: the end of a
+/// The possible causes when strings do not answer as they should, the likeliest first: the end of a
 /// sentence.
 constexpr const char* kStringCauses =
     "the motors have no supply (the emergency stop is pressed, or a supply is off); a string is "

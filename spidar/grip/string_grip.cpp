@@ -63,11 +63,11 @@ bool GripWatch::is_frozen(const DeviceReading& reading, const GripCommand& comma
   const Wrench change = command.wrench - at_last_change_;
   const double change_N =
       std::hypot(change.force_N.norm(), change.torque_Nm.norm() / std::max(radius_m_, 1e-3));
-  // A force that passes the old one on its way, as in a film that shakes, takes nothing back.
+  // A force that shakes and passes the old value on its way does not reset the time.
   if (change_N >= kFeltForce_N) {
     pushed_s_ += std::min(1.0, change_N / kFrozenForce_N) * command.dt_s;
   }
-  // At rest the force returns to its previous value, but dead counters stay dead.
+  // After the force has returned to its previous value at rest, dead counters still count as dead.
   if (pushed_s_ > kFrozenAfter_s) frozen_ = true;
   return frozen_;
 }
@@ -100,9 +100,9 @@ void GripWatch::update(const DeviceReading& reading, const GripCommand& command)
     return trust_.succeed(command.wrench.stacked().isZero(0));
   }
   ++pose_errors_;
-  // A single jump is enough: the previous pose is not the present one.
+  // A single jump ends trust, because the previous pose is no longer true.
   trust_.fail(fault, fault == PoseFault::kJump || fault == PoseFault::kFrozen);
-  // The grip may have moved far from the last pose: search from the centre.
+  // The grip may have moved far from the last pose, so the search starts from the centre.
   if (!trust_.trusted() && fault == PoseFault::kNoFit) solver_.search_from({});
 }
 
@@ -131,7 +131,7 @@ StringGrip::StringGrip(const Profile& profile, std::unique_ptr<StringDevice> dev
   owned_ = std::move(device);
 }
 
-/// Only the home position of the grip is known.
+/// The first reading is compared with the home position, which is the only known pose.
 void StringGrip::open() {
   device_.open();
   watch_.reset();
@@ -181,8 +181,8 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
 void StringGrip::update(const DeviceReading& answer, const GripCommand& command) noexcept {
   const int left_out = watch_.faulty_string();
   watch_.update(answer, command);
-  // Poses without a string that fits after all may have been wrong: the step from them to this one
-  // is no motion.
+  // Poses that were computed without a string that fits after all may have been wrong: the step
+  // from them to this pose is no motion.
   if (left_out >= 0 && watch_.faulty_string() != left_out) reading_.motion.reset();
   if (watch_.trusted() || watch_.follows()) {
     reading_.motion.update(watch_.pose(), watch_.located_ns());

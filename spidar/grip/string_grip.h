@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip on strings: tensions out, the pose from the counts.
 #pragma once
 
 #include <array>
@@ -25,14 +24,14 @@ namespace spidar {
 /// nor throws after construction.
 class GripWatch {
  public:
-  /// Largest accepted rotation: strings from all sides would have tangled long before.
+  /// The largest accepted rotation: strings from all sides would have tangled long before.
   static constexpr double kMaxTurn_rad = 2.1;
-  /// A hand yields by some millimetres when the force changes by kFrozenForce_N, and by more than a
-  /// tenth of one when it changes by kFeltForce_N, the least that a hand feels; a hand trembles by
-  /// as much. A count is some hundredths of a millimetre. If no counter has moved for
-  /// kFrozenAfter_s since the force changed, or longer in proportion after a smaller change, the
-  /// counters do not work. Friction may hold a grip against a change that no hand feels, which
-  /// therefore tells nothing.
+  /// If no counter has moved for kFrozenAfter_s since the force changed by kFrozenForce_N, the
+  /// counters do not work; after a smaller change the time is longer in proportion. When the force
+  /// changes by kFrozenForce_N, a hand yields by some millimetres, which is many counts of some
+  /// hundredths of a millimetre. When the force changes by kFeltForce_N, the least that a hand
+  /// feels, the hand yields by more than a tenth of a millimetre, as much as its tremor. Changes
+  /// below that prove nothing, because friction may hold a grip against them.
   static constexpr double kFrozenForce_N = 0.5;
   static constexpr double kFrozenAfter_s = 0.5;
 
@@ -44,26 +43,24 @@ class GripWatch {
 
   /// Takes the reading of a tick in which the device has answered `command`.
   void update(const DeviceReading& reading, const GripCommand& command) noexcept;
-  /// For a tick in which the device did not answer.
+  /// Tells that the device did not answer in a tick.
   void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
-  /// To be called before the tensions of a tick are computed: withdraws trust if the newest pose is
-  /// too old.
+  /// Ends trust if the newest pose is too old. Call this before the tensions of a tick are
+  /// computed.
   void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
 
   bool trusted() const noexcept { return trust_.trusted(); }
-  /// Whether the newest pose is one that a hand could have reached, trusted or not: a grip outside
-  /// the frame still moves.
+  /// Whether a hand could have reached the newest pose, trusted or not: a grip outside the frame
+  /// still moves.
   bool follows() const noexcept { return follows_; }
-  /// kNone while trusted.
+  /// Returns kNone while the pose is trusted.
   PoseFault fault() const noexcept { return trust_.fault(); }
   /// The newest good pose, trusted or not.
   const Pose& pose() const noexcept { return pose_; }
-  /// When that pose was read.
   int64_t located_ns() const noexcept { return trust_.located_ns(); }
   double residual_m() const noexcept { return residual_m_; }
-  /// See PoseResult.
   int faulty_string() const noexcept { return faulty_string_; }
-  /// Ticks in which the device answered, but the answer gave no pose.
+  /// The number of ticks in which the device answered, but the answer gave no pose.
   uint64_t pose_errors() const noexcept { return pose_errors_; }
   /// How often a string became faulty, or a different one did.
   uint64_t string_faults() const noexcept { return string_faults_; }
@@ -75,7 +72,7 @@ class GripWatch {
   const Profile profile_;
   const EncoderScale encoders_;
   const double radius_m_;
-  double reach_m_ = 0;  ///< no coordinate of the grip's origin can be larger
+  double reach_m_ = 0;  ///< bounds every coordinate of the grip's origin
   PoseSolver solver_;
 
   ReadingGate<kMaxStrings> gate_;
@@ -88,15 +85,15 @@ class GripWatch {
 
   bool follows_ = false;
   bool frozen_ = false;
-  bool counted_ = false;  ///< the two below are known
+  bool counted_ = false;  ///< whether the two members below are known
   std::array<int32_t, kMaxStrings> last_count_{};
-  Wrench at_last_change_;  ///< commanded when a counter moved last
+  Wrench at_last_change_;  ///< the command when a counter last moved
   double pushed_s_ = 0;    ///< for how long the command has differed from it by kFrozenForce_N
 };
 
-/// Converts a wrench to tensions, and these to volts; counts to lengths, and these to a pose. Keeps
-/// the strings taut, limits their tensions, how fast these change, and the heat of the motors,
-/// leaves out a string that is slack or broken, and notices dead encoders.
+/// A grip on strings. Converts a wrench to tensions and these to volts, and counts to lengths and
+/// these to a pose. Keeps the strings taut, limits tensions, their rate of change and the heat of
+/// the motors, leaves out a string that is slack or broken, and notices dead encoders.
 class StringGrip final : public Grip {
  public:
   /// `device` outlives the grip. Throws std::invalid_argument when the profile has fewer than six

@@ -38,8 +38,8 @@ void TensionChain::reset() noexcept {
 StringVector TensionChain::strings(const StringVector&, const Tick& tick) noexcept {
   command_.leave_out(tick.left_out);
   if (tick.command.fresh) return command_.solve(tick.W, tick.command.wrench, heat_.limit_N());
-  // Near the end of the ramp to rest the wrench may still be large. If it were solved for, the
-  // tensions would not have enough time left to fall.
+  // Near the end of the ramp to zero the wrench may still be large. Solving for that wrench would
+  // leave the tensions too little time to fall.
   const double power = tick.command.power;
   if (power > 0) command_.begin_fade(acknowledged_N_ / power);
   return command_.fade(tick.command.wrench, tick.trusted ? 1 : TensionCommand::kLostPace);
@@ -50,8 +50,7 @@ StringVector TensionChain::delivered(const StringVector& tension_N, const Tick& 
   return command_.limit(tick.W, tick.command.limits, tick.pose, tick.motion);
 }
 
-/// A fraction of what is added to the tensions at rest gives the grip no more power than the wrench
-/// would.
+/// A fraction of the added tensions gives the grip no more power than the wrench would.
 StringVector TensionChain::push(const StringVector& tension_N, const Tick& tick) noexcept {
   if (!tick.command.brakes) return tension_N;
   const GripVelocity then = tick.motion.velocity_in(profile_.drive_lag_s);

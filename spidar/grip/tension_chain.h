@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the commanded wrench to the tension of each string: what protects the motors, and what the
-/// strings must not add.
+/// From the commanded wrench to the tension of each string: limits that protect the motors, and
+/// limits of what the strings add.
 #pragma once
 
 #include <array>
@@ -22,16 +22,15 @@ class TensionChain {
     const StructureMatrix& W;  ///< of `pose`
     const Pose& pose;
     const GripMotion& motion;
-    bool trusted;  ///< the pose is
+    bool trusted;  ///< whether the pose is trusted
     int left_out;  ///< string that is broken or slack; −1: none
   };
-  /// Returns what it leaves of the tensions that the step before it has left. The chain runs its
-  /// steps in the order of their list, and docs/architecture.md has the same list (test
-  /// `limit_chain`).
+  /// Returns what the step leaves of the tensions that it receives. The chain runs its steps in the
+  /// order of their list, and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
-    const char* reason;  ///< for the limit, or for its place
+    const char* reason;  ///< why the limit exists, or why it has this place
     StringVector (TensionChain::*leave)(const StringVector&, const Tick&) noexcept;
   };
   static const std::array<Step, 6> kSteps;
@@ -39,23 +38,22 @@ class TensionChain {
   explicit TensionChain(const Profile& profile)
       : profile_(profile), command_(profile), slew_(profile), heat_(profile) {}
 
-  /// Takes the command of `tick` through all steps.
+  /// Passes the command of `tick` through all steps.
   StringVector apply(const Tick& tick) noexcept;
-  /// The motors have received `tension_N`, the result of the last apply().
+  /// Tells that the motors have received `tension_N`, the result of the last apply().
   void acknowledge(const StringVector& tension_N) noexcept { acknowledged_N_ = tension_N; }
-  /// They may not have received it. Returns what they received last.
+  /// Tells that the motors may not have received it. Returns what they received last.
   const StringVector& undo() noexcept {
     slew_.reset(acknowledged_N_);
     return acknowledged_N_;
   }
-  /// The motors have pulled for `passed_s`.
+  /// Tells that the motors have pulled for `passed_s`.
   void heat(double passed_s) noexcept { heat_.update(acknowledged_N_, passed_s); }
-  /// Starts with motors that are off; they stay as warm as they are.
+  /// Starts with motors that are off, and as warm as they are.
   void reset() noexcept;
 
-  /// Heat of the warmest motor.
   double hottest() const noexcept { return heat_.hottest(); }
-  /// The strings give less than the command: one is left out, or a motor is warm.
+  /// Whether the strings give less than the command, because one is left out or a motor is warm.
   bool held_back() const noexcept { return command_.held_back(); }
 
  private:

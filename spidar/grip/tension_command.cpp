@@ -43,7 +43,7 @@ MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexc
 
 namespace {
 
-/// The largest s ≤ 1 with |from + s step| ≤ most, or ≤ |from| where that is larger.
+/// Returns the largest s ≤ 1 with |from + s step| ≤ most, or ≤ |from| where that is larger.
 double longest_step(const Eigen::Vector3d& from, const Eigen::Vector3d& step, double most) {
   const double length2 = step.squaredNorm();
   if (!(length2 > 0)) return 1;
@@ -115,7 +115,7 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   if (!(size > 0)) return last_N_;
   problem_.W = W;
   const Wrench at_rest = left_out_ < 0 ? wrench_of(W, min_N_) : Wrench();
-  // Half of the range counts as all of it: that is at most what a motor may sustain for ever.
+  // Half of the range counts as all of it, because a motor may sustain at most half of it for ever.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
   problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);
@@ -144,8 +144,9 @@ double TensionCommand::fraction_within(const StructureMatrix& W,
                   longest_step(rest.torque_Nm, added.torque_Nm, max_torque_Nm));
 }
 
-// A point that moves by w turns a string of length L by w / (L − w) at most. The force changes by
-// that for each newton of a string, the torque by that times the arm, and by how far its end moves.
+// A point that moves by w turns a string of length L by w / (L − w) at most. For each newton of a
+// string, the force changes by this angle; the torque changes by this angle times the arm, plus the
+// motion of the arm's end.
 bool TensionCommand::stays_within(const StructureMatrix& W, const SafetyLimits& limits,
                                   const Pose& pose, double moved_m) const noexcept {
   // A point at r is moved by 2 r sin(θ/2) when the grip turns by θ.

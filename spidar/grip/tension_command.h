@@ -23,8 +23,8 @@ namespace spidar {
 /// assumed to be cold when this object is created.
 class MotorHeat {
  public:
-  /// From this heat on, a motor is limited to less than its largest tension, and at heat 1 to its
-  /// continuous tension. No sequence of tensions within limit_N() raises the heat above 1.
+  /// From this heat on, the limit of a motor falls from its largest tension, down to its continuous
+  /// tension at heat 1. No sequence of tensions within limit_N() raises the heat above 1.
   static constexpr double kLimitFrom = 0.8;
 
   explicit MotorHeat(const Profile& profile) : profile_(profile) {
@@ -34,7 +34,7 @@ class MotorHeat {
     }
   }
 
-  /// The motors have produced `tension_N` for `dt_s`.
+  /// Tells that the motors have produced `tension_N` for `dt_s`.
   void update(const StringVector& tension_N, double dt_s) noexcept {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
@@ -43,7 +43,7 @@ class MotorHeat {
     }
   }
 
-  /// Largest permitted tension of each string at its present heat, N.
+  /// The largest permitted tension of each string at its present heat, N.
   StringVector limit_N() const noexcept {
     StringVector limit_N = StringVector::Zero();
     for (int i = 0; i < profile_.geometry.count; ++i) {
@@ -55,7 +55,6 @@ class MotorHeat {
     return limit_N;
   }
 
-  /// Heat of the warmest motor.
   double hottest() const noexcept { return heat_.head(profile_.geometry.count).maxCoeff(); }
 
  private:
@@ -68,9 +67,9 @@ class MotorHeat {
 /// (docs/strings.md). A hand would feel that as a jerk, and a motor cannot follow it.
 class TensionSlew {
  public:
-  /// Shortest time in which a string passes through its whole range, …
+  /// The shortest time in which a string passes through its whole range, …
   static constexpr double kRange_s = 0.02;
-  /// … unless the range is so small that it would hold up a wrench, which may change as fast as
+  /// … unless the range is so small that this would hold up a wrench, which may change as fast as
   /// SafetyLimits permit: weak motors need all of their range for a few newtons, and a force that a
   /// brake takes away would go on accelerating the grip.
   static constexpr double kMin_N_s = 300;
@@ -86,7 +85,7 @@ class TensionSlew {
   /// minimum.
   StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
 
-  /// At rest: every string at its minimum.
+  /// Starts at rest, where every string has its minimum tension.
   void reset(const Profile& profile) noexcept { last_N_ = profile.min_tension_N(); }
 
   /// Continues from `tension_N`, the tensions that the device has acknowledged.
@@ -109,7 +108,7 @@ MotorVolts to_volts(const StringVector& tension_N, const Profile& profile) noexc
 /// a wrench. No function allocates or throws.
 class TensionCommand {
  public:
-  /// Limit of each string's tension above its minimum, for each newton of the wrench (torque is
+  /// The limit of each string's tension above its minimum, for each newton of the wrench (torque is
   /// divided by the grip radius). A higher limit does not deliver noticeably more of the wrench
   /// within 2 cm and 20°, and increases the error of the force if the assumed pose is wrong
   /// (docs/strings.md).
@@ -117,10 +116,10 @@ class TensionCommand {
 
   /// Two ticks: the one until the next exchange, and one more if that is late.
   static constexpr double kAhead_s = 2e-3;
-  /// Lever, as a fraction of the grip's radius, of the torque that least squares leaves beside a
-  /// force that the strings cannot give alone: 0.3 to 0.6 within 2 cm and 20°. A torque up to this
-  /// lever times the force limit never counts as above the torque limit, because only a smaller
-  /// force would lower it.
+  /// The lever, as a fraction of the grip's radius, of the torque that least squares leaves beside
+  /// a force that the strings cannot exert alone: 0.3 to 0.6 within 2 cm and 20°. A torque up to
+  /// this lever times the force limit never counts as above the torque limit, because only a
+  /// smaller force would lower it.
   static constexpr double kStrayLever = 0.5;
 
   /// The pace of fade() when the pose is lost: a string may have broken, and the others pull with
@@ -133,46 +132,46 @@ class TensionCommand {
   /// Returns the tensions that approximate `wrench` best, with the structure matrix `W` of a
   /// trusted pose. A wrench of zero is rest. No tension exceeds `limit_N`.
   ///
-  /// Away from the centre the tensions at rest pull the grip back a little. That wrench stays as it
-  /// is, and `wrench` comes on top of it, because it generates no energy only while nothing removes
-  /// it and restores it elsewhere. No such wrench is kept while a string is left out.
+  /// Away from the centre the tensions at rest pull the grip back a little. That pull stays, and
+  /// `wrench` is added to it, because the pull generates energy as soon as something removes it and
+  /// restores it elsewhere. It does not stay while a string is left out.
   StringVector solve(const StructureMatrix& W, const Wrench& wrench,
                      const StringVector& limit_N) noexcept;
 
   /// Reduces what the tensions of the last solve() add to those at rest until force and torque are
-  /// within `limits`, and returns them. Least squares may overshoot, and the wrench at rest comes
-  /// on top. `W` is that of `pose`. The tensions act while the grip moves on with `motion`, and
-  /// fade out with the lag of the drives: the limits hold at the pose that is reached in kAhead_s
-  /// and two time constants of the drives, too, when an eighth of them is left.
+  /// within `limits`, and returns the tensions. Least squares may overshoot, and the wrench at rest
+  /// is added. `W` is that of `pose`. The tensions act while the grip moves on with `motion`, and
+  /// decay with the lag of the drives. The limits therefore hold also at the pose that is reached
+  /// in kAhead_s and two time constants of the drives, when an eighth of the tensions is left.
   ///
-  /// Where the force at rest exceeds the limit by itself, no more is added to its size. A torque
+  /// Where the force at rest alone exceeds the limit, the command does not increase it. A torque
   /// limit below the torque at rest and that of kStrayLever counts as their sum, because a limit of
-  /// zero must leave the force. With the default limits it is lower in every profile.
+  /// zero must leave the force. With the default limits that sum is lower in every profile.
   StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                      const GripMotion& motion) noexcept;
 
   /// For a tick without a wanted wrench or a known pose: takes `wrench`, which is ramping to zero,
   /// as a fraction of the wrench of the last solve(), and returns the tensions to rest by the same
-  /// fraction, without W. With a `pace` of 4, they are at rest when a quarter of it is gone.
+  /// fraction, without W. With a `pace` of 4, they are at rest when a quarter of the wrench is
+  /// gone.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
-  /// Before fade(): after a solve(), it begins at the tensions that the strings have. One that has
-  /// not reached the solution yet would rise otherwise.
+  /// Call this before fade(): after a solve(), the fade begins at the present tensions. A tension
+  /// that has not reached the solution yet would rise otherwise.
   void begin_fade(const StringVector& tension_N) noexcept {
     if (!std::exchange(fades_, true)) last_N_ = tension_N;
   }
 
   /// From now on, does not use a string that is broken or slack or whose encoder is dead. As the
-  /// fraction of the wrench that is used grows, its tension decreases from the minimum to zero. At
-  /// rest it keeps its minimum tension like the others, because it may not really be broken, and
-  /// then seven strings would pull the grip aside. −1: none.
+  /// fraction of the wrench that is used grows, the tension of that string decreases from the
+  /// minimum to zero. At rest the string keeps its minimum tension like the others, because it may
+  /// not really be broken, and then seven strings would pull the grip aside. −1: none.
   void leave_out(int string) noexcept { left_out_ = string; }
 
-  /// Fraction of the wrench that the last solve() used. It is below 1 if a string is left out or
-  /// limited, because the other strings alone would give a different wrench.
+  /// The fraction of the wrench that the last solve() used. It is below 1 if a string is left out
+  /// or limited, because the other strings alone would give a different wrench.
   double fraction() const noexcept { return fraction_; }
   bool held_back() const noexcept { return fraction_ < 1; }
 
-  /// Sets the state to rest, with all strings in use.
   void reset() noexcept;
 
  private:
@@ -180,11 +179,11 @@ class TensionCommand {
   /// range that strings may not use, 0 … 1.
   double pose_problem(const Wrench& wrench, const StringVector& limit_N) noexcept;
 
-  /// The fraction, 0 … 1, of what the last solve() adds to rest that is within `limits` at a pose
-  /// with the structure matrix `W`.
+  /// The fraction, 0 … 1, of the tensions added by the last solve() that is within `limits` at a
+  /// pose with the structure matrix `W`.
   double fraction_within(const StructureMatrix& W, const SafetyLimits& limits) const noexcept;
   /// Whether the last solve() is within `limits` at all poses that are reached from `pose` when no
-  /// point of the grip moves by more than `moved_m`. False when a bound cannot tell.
+  /// point of the grip moves by more than `moved_m`. Returns false when the bound cannot tell.
   bool stays_within(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                     double moved_m) const noexcept;
   double stray_Nm(const SafetyLimits& limits) const noexcept;
@@ -198,7 +197,7 @@ class TensionCommand {
   TensionProblem problem_;
   TensionSolver solver_;
   int left_out_ = -1;
-  bool fades_ = true;    ///< since the last solve()
+  bool fades_ = true;    ///< no solve() since the last fade
   StringVector last_N_;  ///< of the last solve()
   double last_size_N_ = 0;
   double fraction_ = 1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The process that sets motors to zero when this one cannot, and what it has to send.
 #pragma once
 
 #include <array>
@@ -21,9 +20,9 @@ struct LastWill {
     kInput,     ///< an input device: each packet is an InputEvent
     kSocket,    ///< a stream socket, to which packets are written
   };
-  /// An event of the type EV_FF. The guardian converts it to the kernel's structure, whose size
-  /// differs between 32-bit and 64-bit programs, because a host and its guardian may differ in that
-  /// (Multi-Arch).
+  /// An event of the type EV_FF. The guardian converts the event to the kernel's structure, whose
+  /// size differs between 32-bit and 64-bit programs, because a host and its guardian may differ in
+  /// that (Multi-Arch).
   struct InputEvent {
     uint32_t code = 0;
     int32_t value = 0;
@@ -42,29 +41,30 @@ struct LastWill {
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
   /// For an input device: the events that restore its settings from before it was driven, one every
-  /// kSetting_ms. Sent after the packets when the host has ended and its motors had pulled.
+  /// kSetting_ms. The guardian sends them after the packets when the host has ended and the motors
+  /// had pulled.
   std::array<InputEvent, kMaxSettings> setting{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
-  /// open file, so that the host's claim is also valid for the guardian. The number of the
-  /// descriptor is different in each process.
+  /// open file, so that the host's claim is also valid for the guardian. The descriptor has a
+  /// different number in each process.
   int file = -1;
 };
 static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill::kMaxLength) +
                                       LastWill::kMaxSettings * 8,
               "the layout must be the same in 32-bit and 64-bit programs");
 
-/// A host that exchanges with its board sends a message at least every kBeat_ms. If its motors pull
-/// and none arrives for kSilence_ms, the host stands still: it is stopped by a signal or a
-/// debugger, has a fault of its own, or gets no processor, and the guardian sets its motors to
-/// zero. A host that finds its own clock so late does the same, because whatever stopped it may
-/// have stopped the guardian as well. If the host runs and hears nothing for kAnswer_ms, its
-/// guardian is dead or stopped. So motors that pull are at zero kAnswer_ms after their guardian has
-/// stopped if the host runs all the time, and kAnswer_ms + kSilence_ms after that if it runs every
-/// kSilence_ms; if it runs less often, at its next turn.
+/// A host that exchanges with its board sends a heartbeat at least every kBeat_ms. If its motors
+/// pull and no heartbeat arrives for kSilence_ms, the host stands still: a signal or a debugger has
+/// stopped it, it has a fault of its own, or it gets no processor. The guardian then sets the
+/// motors to zero. A host that finds its own clock so late does the same, because the cause may
+/// have stopped the guardian as well. If the host runs and gets no answer for kAnswer_ms, its
+/// guardian is dead or stopped. So when a guardian stops, motors that pull are at zero after
+/// kAnswer_ms if the host runs all the time, after kAnswer_ms + kSilence_ms if the host runs every
+/// kSilence_ms, and otherwise at the host's next turn.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
-/// Duration of every effect of an input device, so that none outlasts a program that hangs or is
-/// stopped.
+/// The duration of every effect of an input device, so that no effect outlasts a program that hangs
+/// or is stopped.
 constexpr int kEffect_ms = 150;
 constexpr int kSilence_ms = 50;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -74,56 +74,57 @@ constexpr int kAnswer_ms = 80;
 #endif
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
-/// kDismissed; the answers show the host that its guardian is running.
+/// kDismissed, which shows the host that its guardian is running.
 enum class HostWord : char {
   kPulling = 'p',    ///< the motors pull: the next message must follow soon
-  kResting = 'r',    ///< they are at zero: the host may be silent
-  kDismissed = 'q',  ///< the guardian is to end without sending the packets
+  kResting = 'r',    ///< the motors are at zero: the host may be silent
+  kDismissed = 'q',  ///< the guardian must end without sending the packets
 };
 
-/// Answers of the guardian; the first one says that it is ready.
+/// Answers of the guardian; the first one says that the guardian is ready.
 enum class GuardianWord : char {
   kWatching = 'w',
-  /// The host sent no message in time, and the guardian has sent the zeros. It sends them again
-  /// every kSilence_ms, sooner when they have not arrived, until it is dismissed, because a host
-  /// that continues may send old volts before it reads this answer.
+  /// The host sent no message in time, and the guardian has sent the zeros. The guardian repeats
+  /// them every kSilence_ms, sooner when they have not arrived, until the host dismisses it,
+  /// because a host that continues may send old volts before reading this answer.
   kZeroed = 'z',
 };
 
-/// Boards keep their last value when the host stops sending, and no code of a process runs after it
-/// is killed or while it is stopped. A guardian is a small separate program (spidar-guardian) that
-/// has the device's open file and packets of zeros. It sends these packets when this process ends,
-/// even if another process has inherited its files, and when motors pull and watch() was not called
-/// for kSilence_ms. When this process has ended, it also returns the settings of an input device.
+/// The separate process that sets motors to zero when this one cannot. Boards keep their last value
+/// when the host stops sending, and no code of a process runs after it is killed or while it is
+/// stopped. A guardian is a small program (spidar-guardian) that has the device's open file and
+/// packets of zeros. It sends these packets when this process ends, even if another process has
+/// inherited its files, and when motors pull and watch() was not called for kSilence_ms. When this
+/// process has ended, the guardian also restores the settings of an input device.
 ///
-/// To be used by one thread at a time. In a forked child of the process that created it, it does
+/// One thread at a time. In a forked child of the process that created it, this object does
 /// nothing.
 class Guardian {
  public:
   /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does
   /// not answer. The program is $SPIDAR_GUARDIAN, or the installed one. It has a session of its own
-  /// and, where systemd runs, a scope of its own, so that it survives what ends or freezes the
-  /// control group of this process. If $SPIDAR_GUARDIAN is a socket (SOCK_SEQPACKET), a service
-  /// behind it starts the guardian.
+  /// and, where systemd runs, a scope of its own, so that the guardian survives what ends or
+  /// freezes the control group of this process. If $SPIDAR_GUARDIAN is a socket (SOCK_SEQPACKET), a
+  /// service behind the socket starts the guardian.
   Guardian(const std::string& device, const LastWill& will);
-  /// Dismisses the guardian; it does not send the packets of `will`.
+  /// Dismisses the guardian, which then does not send the packets of `will`.
   ~Guardian();
   Guardian(const Guardian&) = delete;
   Guardian& operator=(const Guardian&) = delete;
 
-  /// To be called in every exchange. `pulling` must be true as long as the motors are not at zero,
+  /// Call this in every exchange. `pulling` must be true as long as the motors are not at zero,
   /// from before the first voltage to after the last. Returns false if the guardian no longer
   /// works, because it was killed or has been silent for kAnswer_ms, or if this process
   /// stood_still(). The caller must then set the motors to zero and create another guardian.
   bool watch(bool pulling) noexcept;
 
-  /// While the motors pulled, this process did not call watch() for kSilence_ms.
+  /// Whether this process did not call watch() for kSilence_ms while the motors pulled.
   bool stood_still() const noexcept { return stood_still_; }
 
-  /// Makes the guardian zero the motors now, for the case that the board is released but the motors
-  /// could not be zeroed. Returns after kEnd_s at the latest; the guardian goes on trying until the
-  /// board takes the zeros or is gone. The effects of an input device end by themselves, and are
-  /// erased with its end.
+  /// Makes the guardian set the motors to zero now, for the case that the board is released but the
+  /// motors could not be set to zero. Returns after kEnd_s at the latest; the guardian goes on
+  /// trying until the board takes the zeros or is gone. The effects of an input device end by
+  /// themselves, and the kernel erases them when the device is closed.
   void carry_out() noexcept;
 
   static constexpr int kEnd_s = 2;
@@ -139,13 +140,13 @@ class Guardian {
   void finish(End end) noexcept;
 
   int socket_ = -1;
-  pid_t process_ = -1;  ///< −1: it is a service
+  pid_t process_ = -1;  ///< −1: the guardian is a service
   pid_t owner_ = -1;
-  bool pulling_ = false;  ///< as the guardian knows it
+  bool pulling_ = false;  ///< what the guardian knows
   bool stood_still_ = false;
   int64_t said_ns_ = 0;
   int64_t watched_ns_ = 0;
-  int64_t silent_ns_ = 0;  ///< since the guardian was certainly at work
+  int64_t silent_ns_ = 0;  ///< since the guardian last certainly worked
 };
 
 }  // namespace spidar

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Waits until its host dies or stops responding, then sets the motors of one board to zero.
-// Guardian starts it with a socket as standard input.
+// Waits until its host dies or stops responding, then sets the motors of one board to zero. The
+// class Guardian starts this program with a socket as standard input.
 //
 // The host passes the device's file, open and claimed. The claim lasts as long as any process holds
 // that file: a host that is stopped, or a child that has inherited the file, cannot keep the zeros
@@ -36,17 +36,17 @@ using spidar::LastWill;
 
 constexpr int kRetry_ms = 10;
 constexpr int kTransfer_ms = 20;
-/// By then the effects of an input device have ended by themselves.
+/// After this time, the effects of an input device have ended by themselves.
 constexpr int kInputRetries = spidar::kEffect_ms / kRetry_ms;
 
-/// Whether a file will never take a packet again: its device is gone, or it is none. Of these the
-/// kernel's usbfs gives only ENODEV and ESHUTDOWN; an emulation that this process does not see
-/// gives the others.
+/// Returns whether a file will never take a packet again: its device is gone, or it is not a
+/// device. The kernel's usbfs returns only ENODEV and ESHUTDOWN of these; an emulation that this
+/// process does not see returns the others.
 bool is_gone(int error) {
   return error == ENODEV || error == ESHUTDOWN || error == ENOTTY || error == EBADF;
 }
 
-/// Does nothing if the interface is claimed already. A host that has closed the board has released
+/// Claims the interface unless it is claimed already. A host that has closed the board has released
 /// it, perhaps to a driver of the kernel, which is detached. Returns errno.
 int claim(const LastWill& will) {
   unsigned interface = will.interface_number;
@@ -59,8 +59,8 @@ int claim(const LastWill& will) {
   return ioctl(will.file, USBDEVFS_DISCONNECT_CLAIM, &claim) == 0 ? 0 : errno;
 }
 
-/// Returns true when all packets have been sent, or can never be sent, or a new host has the board,
-/// which it has set to zero.
+/// Returns true when all packets have been sent or can never be sent, or when a new host has the
+/// board, which the new host has set to zero.
 bool send_usb(LastWill& will) {
   const int error = claim(will);
   if (error != 0) return is_gone(error) || error == EBUSY;
@@ -79,13 +79,12 @@ bool send_usb(LastWill& will) {
   return true;
 }
 
-/// Whether the next attempt to write may succeed.
 bool may_pass(int error) {
   return error == EAGAIN || error == EINTR || error == ENOMEM || error == ENOBUFS;
 }
 
-/// Of a tty, EIO and others: it was pulled out. Of a socket, EPIPE, ECONNRESET and others: its
-/// connection has ended.
+/// A tty returns EIO and others when it was pulled out, a socket EPIPE, ECONNRESET and others when
+/// its connection has ended.
 bool ends_stream(int error) {
   return !may_pass(error);
 }
@@ -95,7 +94,7 @@ bool ends_input(int error) {
   return error == ENODEV || error == ENXIO || error == EBADF;
 }
 
-/// Like send_usb(). The file is non-blocking.
+/// Works like send_usb() on a non-blocking file.
 bool write_all(int file, const uint8_t* bytes, size_t length, bool (*ends)(int error)) {
   for (size_t sent = 0; sent < length;) {
     const ssize_t more = write(file, bytes + sent, length - sent);
@@ -142,7 +141,7 @@ bool send_packets(LastWill& will) {
     case LastWill::Wire::kInput:
       return send_input(will);
   }
-  return true;  // receive() has refused others
+  return true;  // receive() has refused every other type
 }
 
 void sleep_ms(int milliseconds) {
@@ -151,8 +150,8 @@ void sleep_ms(int milliseconds) {
 }
 
 /// Returns true when the zeros have arrived or the device is gone. A board may recover at any time,
-/// and pulls until then. The effects of an input device do not, and the kernel erases them when
-/// nobody has its file any more, so that to end is better than to try for ever.
+/// and pulls until then. The effects of an input device end by themselves, and the kernel erases
+/// them when no process has the file open, so ending is better than trying for ever.
 bool carry_out(LastWill& will) {
   for (int retries = 0; !send_packets(will); ++retries) {
     if (will.wire == LastWill::Wire::kInput && retries == kInputRetries) return false;
@@ -161,7 +160,7 @@ bool carry_out(LastWill& will) {
   return true;
 }
 
-/// To be called at rest: more gain would make a force stronger. A driver that fails has no more
+/// Call this at rest: more gain would make a force stronger. A driver that fails gets no more
 /// attempts.
 void return_settings(const LastWill& will) {
   for (uint32_t i = 0; i < will.settings; ++i) {
@@ -205,9 +204,9 @@ bool say(GuardianWord word) {
   return send(STDIN_FILENO, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
 }
 
-/// Carries out the will whenever the host is silent while its motors pull. Returns true when the
-/// host has ended, and false when it has dismissed its guardian. `pulled`: whether its motors ever
-/// did.
+/// Sends the zeros whenever the host is silent while its motors pull. Returns true when the host
+/// has ended, and false when it has dismissed its guardian. `pulled` tells whether the motors ever
+/// pulled.
 bool watch(int host, LastWill& will, bool& pulled) {
   bool pulling = false, zeroed = false, failed = false;
   spidar::SleepInhibitor inhibitor;
@@ -218,11 +217,11 @@ bool watch(int host, LastWill& will, bool& pulled) {
         spidar::uninterrupted([&] { return poll(events.data(), events.size(), wait_ms); });
     if (ready < 0) return true;
     if (ready == 0) {
-      // Once only, so that a host that continues gets its answers while the board fails.
+      // Sends once only, so that a host that continues gets its answers while the board fails.
       failed = !send_packets(will);
       zeroed = true;
     } else if (events[0].revents == 0) {
-      // There may be a last message: a host that dismissed its guardian may have ended since.
+      // A last message may be waiting: a host that dismissed its guardian may have ended since.
       return true;
     } else {
       HostWord word{};
@@ -236,8 +235,9 @@ bool watch(int host, LastWill& will, bool& pulled) {
   }
 }
 
-/// The guardian is needed just as much when the machine is busy or short of memory. It does without
-/// anything that is not permitted. Programs that it starts have the usual priority.
+/// The guardian is needed just as much when the machine is busy or short of memory. Where a
+/// privilege is missing, the guardian does without it. Programs that it starts have the usual
+/// priority.
 void ask_for_promptness() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
@@ -253,7 +253,7 @@ int main() {
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGQUIT, SIGTSTP}) {
     signal(number, SIG_IGN);
   }
-  // Other files inherited from the host would stay open as long as this process runs.
+  // Other inherited files would stay open as long as this process runs.
   close_range(STDERR_FILENO + 1, ~0U, 0);
   LastWill will;
   int host = -1;

@@ -9,7 +9,7 @@
 
 namespace spidar::boards {
 
-/// The published host only resets the pipe, which the transport has done already.
+/// The published host only resets the pipe, which the transport has already done.
 LinkFault Sh4::reset(int64_t) noexcept {
   sent_ = {};
   return LinkFault::kNone;
@@ -26,7 +26,8 @@ LinkFault Sh4::exchange(const Digits& digits, Answer& answer, int64_t deadline_n
   if (std::find(sent_.begin(), sent_.end(), reading.dac_echo) == sent_.end()) {
     return LinkFault::kWrongEcho;
   }
-  // Negated, because this board counts in the opposite direction to the Simple board (published).
+  // The published host negates the counters, because this board counts in the opposite direction to
+  // the Simple board.
   for (uint32_t& counter : reading.counter) counter = 0u - counter;
   answer = {reading.counter, reading.inputs, reading.rotary()};
   return LinkFault::kNone;
@@ -74,8 +75,8 @@ std::vector<uint8_t> Simple::zero_packet() const {
 namespace spidar {
 namespace {
 
-/// The profile of a simulation of these boards, which output positive voltages only: the usual one
-/// needs both signs. Real boards have no default (see profile_choice.h).
+/// The profile of a simulation of these boards, which output positive voltages only: the usual
+/// profile needs both signs. Real boards have no default (see profile_choice.h).
 constexpr const char* kUnipolarProfile = "spidar-g6x3-v2-r";
 
 constexpr const char* kInferred = "endpoints and D/A range are inferred";

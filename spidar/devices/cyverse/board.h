@@ -16,17 +16,16 @@ namespace spidar::boards {
 
 class Sh4 final : public StringBoard {
  public:
-  /// The D/A's range is not published (inferred, because all published digits are positive).
+  /// The range of the D/A converters is inferred from the published digits, which are all positive.
   static constexpr Traits kTraits{.dac_bits = sh4::kDacBits, .counter_bits = 16};
 
-  /// Throws as StringBoard's constructor does.
   Sh4(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
       : StringBoard(std::move(name), profile, std::move(transport), kTraits) {}
 
   std::string description() const override;
 
  private:
-  /// The echo may belong to an earlier packet; how far back is not published.
+  /// The echo may belong to an earlier packet; how much earlier is not published.
   static constexpr size_t kEchoes = 4;
 
   LinkFault reset(int64_t deadline_ns) noexcept override;
@@ -43,7 +42,6 @@ class Simple final : public StringBoard {
  public:
   static constexpr Traits kTraits{.dac_bits = usb_simple::kDacBits, .counter_bits = 24};
 
-  /// Throws as StringBoard's constructor does.
   Simple(std::string name, const Profile& profile, std::unique_ptr<Transport> transport)
       : StringBoard(std::move(name), profile, std::move(transport), kTraits) {
     usb_simple::encode_latch(latch_);

@@ -46,7 +46,7 @@ void Simple::receive(ByteView bytes) noexcept {
       break;
     }
     case usb_simple::Command::kEncoderDirection:
-      break;  // the wiring is right already
+      break;  // the emulated wiring already has the right direction
   }
 }
 

@@ -22,9 +22,7 @@ namespace {
 
 constexpr uint8_t kUpdateAll = 0x01;
 constexpr uint8_t kBaseAnalyzer = 0x0E;
-// Command.
 constexpr size_t kDigitsAt = 2;
-// Reply.
 constexpr size_t kEchoAt = 0;
 constexpr size_t kCounterAt = 16;
 constexpr size_t kAdcAt = 32;

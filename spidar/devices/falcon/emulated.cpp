@@ -12,14 +12,14 @@
 namespace spidar::emulated {
 namespace {
 
-/// Data of a packet while the firmware runs: its answers come in two parts.
+/// Bytes in a packet of the running firmware, whose answers come in two parts.
 constexpr size_t kPart = 9;
 
 bool is(const VendorRequest& request, const VendorRequest& other) noexcept {
   return request.request == other.request && request.value == other.value;
 }
 
-/// The force that these motors cause on the hand, N; zero where the arms determine nothing.
+/// Returns the force of these motors on the hand, N; zero where the arms determine no force.
 Eigen::Vector3d force_N(const std::array<int, 3>& digit, const Eigen::Vector3d& angles_rad,
                         const Eigen::Vector3d& position_m) noexcept {
   const auto jacobian = falcon::jacobian(angles_rad, position_m);
@@ -57,7 +57,6 @@ void Falcon::receive(ByteView bytes) noexcept {
   }
 }
 
-/// Returns true when `length` bytes have been collected.
 bool Falcon::feed(uint8_t byte, size_t length) noexcept {
   packet_[taken_++] = byte;
   if (taken_ < length) return false;
@@ -72,7 +71,7 @@ void Falcon::hello(uint8_t byte) noexcept {
   }
 }
 
-/// Echoes everything; what follows the first byte is the firmware.
+/// Echoes every byte; the bytes after the first one are the firmware.
 void Falcon::load(uint8_t byte) noexcept {
   if (!loader_) return;
   answer({&byte, 1});
@@ -88,7 +87,7 @@ void Falcon::run(uint8_t byte) noexcept {
 
 void Falcon::handle(const falcon::Command& command) noexcept {
   const Eigen::Vector3d at_m = position_m(*motors_);
-  // Beyond its reach, the grip stays where it was.
+  // When the position is out of reach, the grip stays where it was.
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
   put_out_N(*motors_, force_N(command.digit, angles_rad_, at_m));
   falcon::Reading reading;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The emulated Novint Falcon.
 #pragma once
 
 #include <array>
@@ -12,11 +11,11 @@
 
 namespace spidar::emulated {
 
-/// Its digits are the force on the hand in millinewtons, right, up and towards the viewer; its
-/// counts are the position of the grip in micrometres, and its inputs buttons (bits 0–3) and the
-/// encoders whose marks have been passed (bits 4–6). Nothing has friction or weight. Any firmware
-/// will do. Each answer comes in three packets: only status bytes, as when the chip's timer is
-/// faster than the firmware, and two parts.
+/// The emulated Novint Falcon. Its digits are the force on the hand in millinewtons (right, up,
+/// towards the viewer); its counts are the position of the grip in micrometres; its inputs are the
+/// buttons (bits 0–3) and the encoders whose marks have been passed (bits 4–6). The model has
+/// neither friction nor weight, and accepts any firmware. Each answer comes in three packets: one
+/// of status bytes only, as when the chip's timer is faster than the firmware, and two parts.
 class Falcon final : public Board {
  public:
   static constexpr uint16_t kHomed = 0x70;  ///< inputs: every encoder has passed its mark
@@ -39,13 +38,13 @@ class Falcon final : public Board {
   Memory own_memory_{{true}, {0}};
   Memory* memory_ = &own_memory_;
   Eigen::Vector3d angles_rad_ = Eigen::Vector3d::Constant(falcon::kAngleAtZero_rad);
-  bool loader_ = false;  ///< started by toggling DTR, until the line is fast
+  bool loader_ = false;  ///< the loader runs: toggling DTR starts it, and the fast line ends it
   bool takes_firmware_ = false;
-  falcon::Packet packet_{};  ///< the one that is being received
+  falcon::Packet packet_{};  ///< the packet that is being received
   size_t taken_ = 0;
-  std::array<uint8_t, 256> answer_{};  ///< bytes that have not been read yet
+  std::array<uint8_t, 256> answer_{};  ///< the bytes that have not been read yet
   size_t due_ = 0;
-  bool timer_first_ = false;  ///< the next packet has only status bytes
+  bool timer_first_ = false;  ///< whether the next packet has only status bytes
 };
 
 }  // namespace spidar::emulated

@@ -22,9 +22,9 @@
 
 namespace spidar::boards {
 
-/// The device forgets its firmware without power, and this project may not ship it. If the device
-/// does not answer without firmware, open() loads it from the file that $SPIDAR_FALCON_FIRMWARE
-/// names, or from ~/.local/share/gst-spidar/novint-falcon.bin. That takes up to three seconds.
+/// The device forgets its firmware without power, and this project may not ship the firmware. If
+/// the device does not answer, open() loads the firmware from the file that $SPIDAR_FALCON_FIRMWARE
+/// names, or from ~/.local/share/gst-spidar/novint-falcon.bin. Loading takes up to three seconds.
 ///
 /// Until every encoder has passed its mark there is no position and no force: the user pulls the
 /// grip all the way out and pushes it all the way in.
@@ -41,16 +41,16 @@ class Falcon final : public OnTransport<ForceBoard> {
   GripAbilities abilities() const noexcept override { return kAbilities; }
 
  private:
-  /// At libnifalcon's scale, the force that the motors can give in every direction within 50 mm of
-  /// the centre. 8.9 N (2 lb) are often quoted, without a source.
+  /// The force that the motors can exert in every direction within 50 mm of the centre, by
+  /// libnifalcon's scale. 8.9 N (2 lb) are often quoted, without a source.
   static constexpr double kMostForce_N = 4.4;
-  /// The corners of a picture are 49.5 mm from the centre, those of the whole room 54.6 mm.
+  /// The corners of a picture are 49.5 mm from the centre, those of the whole workspace 54.6 mm.
   static constexpr GripAbilities kAbilities{.torque = false,
                                             .largest_force_N = kMostForce_N,
                                             .buttons = 4,
                                             .half_room_m = {0.035, 0.035, 0.023}};
 
-  /// Where the grip was in the last answer.
+  /// The position of the grip in the last answer.
   struct Position {
     Eigen::Vector3d position_m;
     Eigen::Matrix3d jacobian;
@@ -69,14 +69,14 @@ class Falcon final : public OnTransport<ForceBoard> {
   falcon::Packet out_{};
   falcon::Reading seen_;
   std::optional<Position> position_;
-  bool stale_ = false;  ///< bytes of an exchange that failed may still arrive
+  bool stale_ = false;  ///< bytes of a failed exchange may still arrive
 };
 
 namespace {
 
-/// The published program tries a hundred times, of which few are needed.
+/// The published program says hello up to a hundred times; few are needed.
 constexpr int kHellos = 10;
-/// The published ones have 7 to 9 kB.
+/// The published firmware files have 7 to 9 kB.
 constexpr size_t kMaxFirmware = 65'536;
 
 std::string firmware_path() {
@@ -117,9 +117,9 @@ LinkFault Falcon::set_line(const Requests& requests) noexcept {
   return LinkFault::kNone;
 }
 
-/// Sends the bytes and waits until the answer is full. Packets from the chip begin with its status
-/// and contain any part of an answer, or nothing: it sends its status also while the device is
-/// silent, which the transport ends at the deadline.
+/// Sends the bytes and waits until the answer is complete. Packets from the chip begin with its
+/// status and contain any part of an answer, or nothing: the chip sends its status even while the
+/// device is silent, until the transport stops at the deadline.
 LinkFault Falcon::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
   if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
   std::array<uint8_t, ftdi::kPacketSize> in{};
@@ -149,7 +149,7 @@ LinkFault Falcon::ask(const falcon::Command& command, int64_t deadline_ns) noexc
   return LinkFault::kWrongReply;
 }
 
-/// Whether the firmware answers.
+/// Returns whether the firmware answers.
 LinkFault Falcon::start() noexcept {
   const LinkFault fault = set_line(falcon::kRunLine);
   if (fault != LinkFault::kNone) return fault;
@@ -162,7 +162,7 @@ LinkFault Falcon::greet_loader() noexcept {
   for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
     const LinkFault said = say(falcon::kHello, answer, soon_ns());
     if (said == LinkFault::kGone) return said;
-    // With a zero in front, its end does not fit.
+    // A zero byte in front leaves no room for the last byte.
     const size_t zero = answer[0] == 0 ? 1 : 0;
     if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
       return set_line(falcon::kLoadLine);
@@ -172,7 +172,7 @@ LinkFault Falcon::greet_loader() noexcept {
   return fault;
 }
 
-/// Every piece is echoed, which is how errors on the line are noticed.
+/// The device echoes every piece, which reveals errors on the line.
 LinkFault Falcon::load(const std::vector<uint8_t>& firmware) noexcept {
   LinkFault fault = greet_loader();
   std::array<uint8_t, falcon::kPieceSize> echo{};
@@ -202,7 +202,7 @@ void Falcon::open() {
   update();
 }
 
-/// From the counts, if they are counted from the marks.
+/// Takes the position from the counts, if every encoder has passed its mark.
 void Falcon::update() noexcept {
   position_.reset();
   if (!seen_.all_homed()) return;
@@ -214,7 +214,8 @@ void Falcon::update() noexcept {
   if (jacobian) position_ = {*position_m, *jacobian};
 }
 
-/// Shortened together, where one motor cannot give its part, so that the direction remains.
+/// Reduces all three digits together where one motor cannot exert its part, so that the direction
+/// of the force remains.
 std::array<int, 3> Falcon::digits_for(const Eigen::Vector3d& force_N) const noexcept {
   std::array<int, 3> digits{};
   if (!position_ || !force_N.allFinite()) return digits;

@@ -11,21 +11,23 @@ namespace spidar::falcon {
 namespace {
 
 // Lengths in metres, by the letters of Stamper's figure.
-constexpr double kUpperArm_m = 0.060;      // a
-constexpr double kRods_m = 0.1025;         // b, of the parallelogram
-constexpr double kHinges_m = 0.0225;       // d + e, between the rods' ends and their axes
-constexpr double kGripOut_m = 0.01443;     // c, from the rods to the middle of the grip, outwards
-constexpr double kGripAside_m = -0.025;    // f, the same, sideways
-constexpr double kBaseOut_m = 0.0400;      // r, from the middle of the base to an arm's axis
-constexpr double kBaseAside_m = -0.02309;  // s, the same, sideways
+constexpr double kUpperArm_m = 0.060;    // a
+constexpr double kRods_m = 0.1025;       // b, of the parallelogram
+constexpr double kHinges_m = 0.0225;     // d + e, between the rods' ends and their axes
+constexpr double kGripOut_m = 0.01443;   // c, from the rods to the middle of the grip, outwards
+constexpr double kGripAside_m = -0.025;  // f, from the rods to the middle of the grip, sideways
+constexpr double kBaseOut_m = 0.0400;    // r, from the middle of the base to an arm's axis
+// S, from the middle of the base to an arm's axis, sideways.
+constexpr double kBaseAside_m = -0.02309;
 constexpr double kFirstArm_rad = M_PI / 2 + M_PI / 12;  // the others follow clockwise
 
-/// A step this small is below what doubles resolve of the constraints.
+/// Doubles do not resolve the constraints below this step.
 constexpr double kStepDone_m = 1e-9;
-/// Smallest |det| of three unit rows that counts as independent: within kReach_m it is above 0.17.
+/// Rows whose |det| is smaller count as dependent: within kReach_m the |det| is above 0.17.
 constexpr double kMinDeterminant = 0.05;
 
-/// From the device frame to that of each arm, rows u outwards, v sideways, w towards the hand.
+/// Rotations from the device frame to the frame of each arm, with rows u outwards, v sideways, w
+/// towards the hand.
 std::array<Eigen::Matrix3d, 3> make_turns() noexcept {
   std::array<Eigen::Matrix3d, 3> turns;
   for (size_t i = 0; i < turns.size(); ++i) {
@@ -41,23 +43,23 @@ const Eigen::Matrix3d& turn_to(int arm) noexcept {
   return turns[static_cast<size_t>(arm)];
 }
 
-/// The far end of the rods of an arm, from the axis of the arm, in the arm's frame.
+/// The far end of an arm's rods, from the axis of the arm, in the arm's frame.
 Eigen::Vector3d rods_end_m(int arm, const Eigen::Vector3d& position_m) noexcept {
   return turn_to(arm) * position_m +
          Eigen::Vector3d(kGripOut_m - kBaseOut_m, kGripAside_m - kBaseAside_m, kCentre_m);
 }
 
-/// The rods lean sideways by v, which shortens what they span in the plane of the arm: this is the
-/// length of that span. Not a number where they cannot lean so far.
+/// The length that the rods span in the plane of the arm, which they shorten by leaning sideways by
+/// v. Not a number where they cannot lean that far.
 double span_m(double v_m) noexcept {
   return kHinges_m + std::sqrt(kRods_m * kRods_m - v_m * v_m);
 }
 
-/// In the plane of each arm, the rods' far end is at the distance span_m() from the knee:
+/// In the plane of each arm, the far end of the rods is at the distance span_m() from the knee:
 /// value = |end − knee|² − span² is zero.
 struct Constraints {
   Eigen::Vector3d value;
-  Eigen::Matrix3d by_position;  ///< a row for each: its gradient, device frame, m
+  Eigen::Matrix3d by_position;  ///< one row per constraint: its gradient in the device frame, m
   Eigen::Vector3d by_angle;     ///< m²/rad; negative unless the arm is stretched or bent back
 };
 
@@ -78,7 +80,7 @@ Constraints constraints_of(const Eigen::Vector3d& angles_rad,
   return all;
 }
 
-/// Nothing when the rows depend on each other, or are not numbers.
+/// Returns nothing when the rows depend on each other or are not numbers.
 std::optional<Eigen::Matrix3d> inverse_of(const Eigen::Matrix3d& rows) noexcept {
   const double independent = std::abs(rows.rowwise().normalized().determinant());
   if (!(independent > kMinDeterminant)) return std::nullopt;
@@ -96,7 +98,8 @@ std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noe
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d end = rods_end_m(i, position_m);
     const double span = span_m(end.y()), reach_m = std::hypot(end.x(), end.z());
-    // Law of cosines in the triangle of axis, knee and rods' end; the knee is on the outside.
+    // The law of cosines holds in the triangle of axis, knee and rods' end; the knee is on the
+    // outside.
     const double cosine =
         (kUpperArm_m * kUpperArm_m + reach_m * reach_m - span * span) / (2 * kUpperArm_m * reach_m);
     if (!(std::abs(cosine) < 1)) return std::nullopt;

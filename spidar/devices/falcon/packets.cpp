@@ -24,7 +24,7 @@ void put_number(Packet& packet, size_t index, uint16_t value) noexcept {
   }
 }
 
-/// Whether it has the frame, and letters for nibbles; the flags may have seven bits.
+/// Returns whether the packet has the frame and letters for nibbles; the flags may have seven bits.
 bool is_packet(ByteView packet) noexcept {
   if (packet.size != kPacketSize || packet.u8(0) != kBegin || packet.u8(kPacketSize - 1) != kEnd) {
     return false;

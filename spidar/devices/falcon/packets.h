@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Packets of the Novint Falcon, behind its FTDI chip.
+/// Packets of the Novint Falcon, behind its FTDI chip. The functions only convert bytes.
 ///
-/// Source: libnifalcon, src/comm/FalconCommLibUSB.cpp (line, loading), src/firmware/
-/// FalconFirmwareNovintSDK.cpp (packets of the maker's firmware), include/falcon/core/
-/// FalconKinematic.h (encoders) and src/kinematic/FalconKinematicStamper.cpp (motors). Its
-/// documentation of the homing bit contradicts its code, which is followed here. Pure: bytes in,
-/// bytes out.
+/// Source: libnifalcon, src/comm/FalconCommLibUSB.cpp (line, loading),
+/// src/firmware/FalconFirmwareNovintSDK.cpp (packets of the maker's firmware),
+/// include/falcon/core/FalconKinematic.h (encoders) and src/kinematic/FalconKinematicStamper.cpp
+/// (motors). Where its documentation of the homing bit contradicts its code, we follow the code.
 #pragma once
 
 #include <array>
@@ -29,43 +28,43 @@ constexpr uint16_t kHelloBaud = 0x4138;  ///< divisor of 9600 baud
 constexpr uint16_t kLoadBaud = 0x0015;   ///< divisor of 143 kbaud
 constexpr uint16_t kRunBaud = 0x0002;    ///< divisor of 1.5 Mbaud
 
-/// Requests before saying hello. Toggling DTR starts the loader.
+/// Requests before the hello. Toggling DTR starts the loader.
 inline constexpr std::array kHelloLine{
     ftdi::kDropReceived, ftdi::kDropSent,      ftdi::latency_ms(16), ftdi::baud_divisor(kHelloBaud),
     ftdi::kEightBits,    ftdi::kNoFlowControl, ftdi::kRtsLow,        ftdi::kDtrLow,
     ftdi::kDtrHigh};
 inline constexpr std::array<uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
-/// A zero byte may precede it.
+/// A zero byte may precede this answer.
 inline constexpr std::array<uint8_t, 4> kHelloAnswer{0x0A, 0x44, 0x2C, 0x0D};
 
-/// Requests between hello and firmware; then kLoad is echoed, and so is every piece.
+/// Requests between hello and firmware; then the device echoes kLoad and every piece of the
+/// firmware.
 inline constexpr std::array kLoadLine{ftdi::kDtrLow, ftdi::baud_divisor(kLoadBaud)};
 inline constexpr std::array<uint8_t, 1> kLoad{'A'};
 constexpr size_t kPieceSize = ftdi::kPacketSize - ftdi::kStatusSize;
 
-/// Requests after the firmware, or if it is loaded already.
+/// Requests after the firmware, or when the device already has its firmware.
 inline constexpr std::array kRunLine{ftdi::latency_ms(1), ftdi::baud_divisor(kRunBaud),
                                      ftdi::kDropReceived, ftdi::kDropSent};
 
 // --- Packets of the running firmware: '<', 14 letters 'A' + number, '>'. Numbers are split into
-// nibbles, the lowest first. Every command is answered.
+// nibbles, the lowest first. The device answers every command.
 
 constexpr size_t kPacketSize = 16;
 using Packet = std::array<uint8_t, kPacketSize>;
 
-/// Largest value of a motor, of 12 bits and a sign.
+/// The largest digit of a motor, which has 12 bits and a sign.
 constexpr int kMostDigit = 4095;
-/// Digits of a motor per N m at its arm; positive digits pull the arm towards the base. libnifalcon
-/// uses this number; nobody states how it was measured.
+/// Digits of a motor per N m at its arm; positive digits pull the arm towards the base. The number
+/// is libnifalcon's; nobody states how it was measured.
 constexpr double kDigitsPerNm = -10000;
 
-/// Colour of the logo; the values are those of the packet.
 enum class Light : uint8_t { kNone = 0, kGreen = 2, kBlue = 4, kRed = 8 };
 
 struct Command {
-  std::array<int, 3> digit{};  ///< of the motors, clockwise from the top as seen by the user
+  std::array<int, 3> digit{};  ///< of the motors, clockwise from the top as the user sees them
   Light light = Light::kNone;
-  /// The encoders find their marks while the grip passes them, and keep what they have found.
+  /// The encoders find their marks while the grip passes them, and remember them.
   bool homing = true;
 };
 
@@ -76,16 +75,14 @@ struct Reading {
   bool all_homed() const noexcept { return homed == 7; }
 };
 
-/// Digits are clamped to ±kMostDigit.
+/// The digits are clamped to ±kMostDigit.
 void encode_command(const Command& command, Packet& packet) noexcept;
-/// Returns false when it is no command.
 bool decode_command(ByteView packet, Command& command) noexcept;
 void encode_reading(const Reading& reading, Packet& packet) noexcept;
-/// Returns false when it is no answer of the firmware.
 bool decode_reading(ByteView packet, Reading& reading) noexcept;
 
-/// A motor of 14.25 mm winds a cable around an arm's drum of 110 mm; its encoder counts 1280 steps
-/// a turn. Zero is at 35 degrees (approximately, says libnifalcon).
+/// A motor drum of 14.25 mm winds a cable around an arm's drum of 110 mm; the motor's encoder
+/// counts 1280 steps a turn. Zero is at 35 degrees (approximately, says libnifalcon).
 constexpr double kRadiansPerCount = 2 * M_PI / 1280 * 14.25 / 110;
 constexpr double kAngleAtZero_rad = 35 * M_PI / 180;
 constexpr double angle_rad(int count) noexcept {

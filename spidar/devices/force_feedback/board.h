@@ -19,9 +19,8 @@
 
 namespace spidar::boards {
 
-/// A stick that is pushed all the way corresponds to a grip half way from the middle to the points
-/// where the strings of the profile leave its frame, which is the edge of the picture for
-/// pointer=grip.
+/// A stick that is pushed all the way corresponds to a grip half way from the middle to the string
+/// exits of the profile, which is the edge of the picture for pointer=grip.
 class ForceFeedback final : public ForceBoard {
  public:
   static constexpr int kUpdate_ms = StickEffects::kUpdate_ms;
@@ -47,13 +46,13 @@ class ForceFeedback final : public ForceBoard {
     reading.buttons = effects_->buttons();
     return LinkFault::kNone;
   }
-  /// Does nothing: the thread that makes the updates recovers from faults.
+  /// The thread that makes the updates recovers from faults.
   void recover() noexcept override {}
-  /// The centring spring stays off when it is to be reopened, for a hand that still holds the
-  /// stick.
+  /// While the device is to be reopened, the centring spring stays off for the hand that still
+  /// holds the stick.
   void close() noexcept override { effects_->close(reopening_); }
   std::vector<LastWill> last_wills() const override { return effects_->last_wills(); }
-  /// Includes what the device lacks.
+  /// Also names what the device lacks.
   std::string description() const override {
     const ff::Description& found = effects_->description();
     std::string text = found.name.data();
@@ -83,9 +82,9 @@ class ForceFeedback final : public ForceBoard {
   }
 
  private:
-  const Eigen::Vector2d reach_m_;  ///< of the stick, x and y
+  const Eigen::Vector2d reach_m_;  ///< of the stick, to the right and up
   const std::shared_ptr<StickEffects> effects_;
-  std::atomic<int> force_axes_{2};     ///< 1: only x; 0: it only rumbles
+  std::atomic<int> force_axes_{2};     ///< 1: only x; 0: the device only rumbles
   std::atomic<int> position_axes_{2};  ///< 1: only x
   std::atomic<int> buttons_{0};
 };

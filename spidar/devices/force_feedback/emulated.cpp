@@ -48,7 +48,7 @@ void ForceFeedback::receive(ByteView bytes) noexcept {
   } else if (const auto effect = ff::decode_effect(bytes)) {
     upload(*effect);
   } else if (const auto event = ff::decode_event(bytes)) {
-    if (event->code >= slots_.size()) return;  // gain or autocentre: no effect
+    if (event->code >= slots_.size()) return;  // the code is gain or autocentre, not an effect
     slots_[event->code].plays = event->value > 0;
     put_out();
   }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The emulated force-feedback device.
 #pragma once
 
 #include <array>
@@ -10,12 +9,12 @@
 
 namespace spidar::emulated {
 
-/// Its digits are the sum of the playing effects: level to the right, level upwards, and strength
-/// of the rumble. Its counts are the position of the stick, of ff::Position::kFull: to the right
-/// and upwards.
+/// The emulated force-feedback device. Its digits are the sum of the playing effects: level to the
+/// right, level upwards, and strength of the rumble. Its counts are the position of the stick to
+/// the right and upwards, in units of ff::Position::kFull.
 class ForceFeedback final : public Board {
  public:
-  /// A stick with two axes, gain, autocentre and room for sixteen effects.
+  /// A stick with two axes, gain, autocentre and a capacity of sixteen effects.
   static ff::Description stick() noexcept;
 
   explicit ForceFeedback(std::shared_ptr<Motors> motors,

@@ -20,7 +20,7 @@ namespace {
 
 constexpr const char* kSysfs = "/sys/class/input";
 
-/// The beginning of a file; empty when it cannot be read.
+/// Returns the beginning of a file; empty when the file cannot be read.
 std::string beginning(const std::string& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return {};
@@ -30,13 +30,14 @@ std::string beginning(const std::string& path) {
   return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
 }
 
-/// The first line of an attribute; empty when it cannot be read.
+/// Returns the first line of an attribute; empty when the file cannot be read.
 std::string attribute(const std::string& path) {
   const std::string text = beginning(path);
   return printable(text.substr(0, text.find('\n')));
 }
 
-/// Bits as sysfs prints them: hexadecimal words of the size of a long, the highest first.
+/// Tests a bit in the words that sysfs prints: hexadecimal, of the size of a long, the highest
+/// first.
 bool has_bit(const std::string& words, unsigned bit) {
   constexpr unsigned kBits = 8 * sizeof(unsigned long);
   std::string left = words;
@@ -110,8 +111,8 @@ std::string without_links(const std::string& path) {
 std::string evdev_driver(const std::string& path) {
   const std::filesystem::path file = without_links(path);
   // The parent of an input device is the device that the driver is bound to, for example on the HID
-  // bus. Its uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c of the
-  // kernel).
+  // bus. The parent's uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c of
+  // the kernel).
   const std::string of_parent = file.filename().string() + "/device/device/uevent";
   const std::string uevent = "\n" + beginning(std::string(kSysfs) + "/" + of_parent);
   constexpr const char* kKey = "\nDRIVER=";
@@ -123,11 +124,11 @@ std::string evdev_driver(const std::string& path) {
 
 namespace {
 
-/// Vendor and product of wheels and wheel bases with force feedback: the wheels of the kernel's
-/// drivers hid-universal-pidff, hid-lg4ff and hid-tmff (drivers/hid/hid-ids.h and hid-tmff.c, Linux
-/// 6.15), of SDL 3.2 (initial_wheel_devices in SDL_joystick.c), and of
+/// Vendor and product of wheels and wheel bases with force feedback, from the kernel's drivers
+/// hid-universal-pidff, hid-lg4ff and hid-tmff (drivers/hid/hid-ids.h and hid-tmff.c, Linux 6.15),
+/// from SDL 3.2 (initial_wheel_devices in SDL_joystick.c), and from
 /// https://github.com/JacKeTUs/linux-steering-wheels (its table, and its issue 24). A vendor is not
-/// enough: most of them also make joysticks or pedals.
+/// enough, because most vendors also make joysticks or pedals.
 constexpr uint32_t kWheels[] = {
     0x0079'1864,  // DragonRise
     0x044f'b605, 0x044f'b653, 0x044f'b654, 0x044f'b65a, 0x044f'b65d, 0x044f'b65e, 0x044f'b664,
@@ -155,7 +156,7 @@ constexpr uint32_t kWheels[] = {
     0x346e'0010, 0x346e'0012, 0x346e'0014, 0x346e'0015, 0x346e'0016,
 };
 
-/// Joysticks that have neither "stick" in their name nor only two axes.
+/// Joysticks that have neither "stick" in their name nor exactly two axes.
 constexpr uint32_t kJoysticks[] = {
     0x045b'58f9,  // FFBeast; "the second joystick axis" in the kernel's hid-universal-pidff.c
     // MOZA AB9 and AB6 FFB Base: https://github.com/bobhelander/EDForceFeedback/pull/36
@@ -179,7 +180,7 @@ EvdevTraits evdev_traits(int file) {
     traits.product = id.product;
   }
   call_ioctl(file, EVIOCGNAME(traits.name.size() - 1), traits.name.data());
-  const std::string name = printable(traits.name.data());  // no longer than before
+  const std::string name = printable(traits.name.data());  // printable() does not lengthen the text
   traits.name = {};
   std::copy(name.begin(), name.end(), traits.name.begin());
   traits.axes = codes<ABS_CNT>(file, EV_ABS);

@@ -24,7 +24,7 @@ bool has(const std::array<uint8_t, N>& bits, unsigned bit) noexcept {
   return bits[bit / 8] >> bit % 8 & 1;
 }
 
-/// The codes of an event type that the device supports; none if it does not report them.
+/// The codes of an event type that the device supports; none if the device does not report them.
 template <size_t Bits>
 BitSet<Bits> codes(int file, unsigned type) noexcept {
   BitSet<Bits> bits{};
@@ -32,31 +32,29 @@ BitSet<Bits> codes(int file, unsigned type) noexcept {
   return bits;
 }
 
-/// All texts are printable().
 struct EvdevInfo {
-  std::string path;         ///< "/dev/input/event5"
+  std::string path;         ///< "/dev/input/event5"; every text here is printable()
   std::string name;         ///< from the driver; may be empty
-  std::string serial;       ///< empty if it has none
+  std::string serial;       ///< empty if the device has none
   std::string id;           ///< vendor and product: "046d:c24f"
   std::string place;        ///< "usb-0000:00:14.0-2/input0"; may be empty
-  bool constant = false;    ///< supports directional force; otherwise it only rumbles
-  bool accessible = false;  ///< this process may open it
+  bool constant = false;    ///< supports directional force; otherwise the device only rumbles
+  bool accessible = false;  ///< this process may open the device
 
   DeviceIdentity identity() const { return {name + " (" + id + ")", serial, place}; }
 };
 
 /// Returns input devices with FF_CONSTANT, then those with only FF_RUMBLE, sorted by number. Reads
-/// the kernel's description in /sys/class/input; opens no device.
+/// the kernel's description in /sys/class/input, and opens no device.
 std::vector<EvdevInfo> list_force_feedback();
 
-/// The identity of an open device.
 DeviceIdentity evdev_identity(int file);
 
-/// `path` with all links resolved; unchanged if there is no such file.
+/// Returns `path` with all links resolved; unchanged if there is no such file.
 std::string without_links(const std::string& path);
 
-/// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to it):
-/// "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
+/// Returns the name of the kernel driver of an input device ("/dev/input/event5", or a link to
+/// that): "logitech", "iforce", "hid-generic", …; empty when sysfs does not name one.
 std::string evdev_driver(const std::string& path);
 
 /// What the kernel reports about an input device.
@@ -70,14 +68,16 @@ struct EvdevTraits {
 
 EvdevTraits evdev_traits(int file);
 
-/// How many axes have a force, if the USB ID tells: 1 for a wheel, 2 for a joystick; otherwise 0.
+/// Returns how many axes have a force according to the USB ID: 1 for a wheel, 2 for a joystick; 0
+/// when the ID does not tell.
 int axes_by_id(const EvdevTraits& traits) noexcept;
 
-/// True when the second axis of the device is a pedal or a lever, not the other direction of a
-/// stick. Linux does not report it. On a wheel that is taken for a joystick, forces up and down
-/// turn the wheel; a joystick that is taken for a wheel only lacks them. So this is true in cases
-/// of doubt: a wheel is known by its USB ID, its name, an axis or a button that only wheels have,
-/// or by pedals. Joysticks have ABS_RZ, too, when they can be twisted, but seldom ABS_Z.
+/// Returns whether the second axis of the device is a pedal or a lever, not the other direction of
+/// a stick, which Linux does not report. On a wheel that is taken for a joystick, vertical forces
+/// would turn the wheel; a joystick that is taken for a wheel only lacks these forces. When in
+/// doubt, a device therefore counts as a wheel. The signs of a wheel are its USB ID, its name, an
+/// axis or a button that only wheels have, and pedals. A joystick that can be twisted has ABS_RZ,
+/// too, but joysticks seldom have ABS_Z.
 bool is_wheel(const EvdevTraits& traits) noexcept;
 
 }  // namespace spidar

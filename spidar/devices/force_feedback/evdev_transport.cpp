@@ -17,13 +17,13 @@
 namespace spidar {
 namespace {
 
-/// Drivers by which hid-pidff drives USB PID devices: the only one in the kernel that sets
-/// autocentre, to its full strength, when the device is plugged in (pidff_check_autocenter() in
-/// drivers/hid/usbhid/hid-pidff.c, unchanged up to Linux 6.15). hid-lg4ff and iforce set it to
-/// zero, the others leave it alone. Linux provides no way to read it.
+/// The drivers by which hid-pidff drives USB PID devices. Only hid-pidff sets autocentre to its
+/// full strength when the device is plugged in (pidff_check_autocenter() in
+/// drivers/hid/usbhid/hid-pidff.c, unchanged up to Linux 6.15). hid-lg4ff and iforce set autocentre
+/// to zero, and the other drivers do not change it. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
-/// Buttons that ff::Position has room for.
+/// The capacity of ff::Position::buttons.
 constexpr size_t kMaxButtons = 32;
 
 LinkFault fault_of_input(int error) noexcept {
@@ -45,7 +45,7 @@ LinkFault fault_of_input(int error) noexcept {
   }
 }
 
-/// Position on an axis, −kFull … kFull; false when the device is gone.
+/// Reads the position on an axis, −kFull … kFull. Returns false when the device is gone.
 bool position_on(int file, int axis, int16_t& position) noexcept {
   input_absinfo info{};
   if (call_ioctl(file, EVIOCGABS(static_cast<unsigned>(axis)), &info) < 0) return false;
@@ -90,7 +90,7 @@ void EvdevTransport::fail(const std::string& path, const std::string& what,
                     error_code_of(error), location);
 }
 
-/// The path of the device that is to be opened.
+/// Returns the path of the device to open.
 std::string EvdevTransport::find() {
   if (!first_.known() && !path_.empty()) return path_;
   const std::vector<EvdevInfo> devices = list_force_feedback();
@@ -118,7 +118,8 @@ void EvdevTransport::open() {
   if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
   try {
-    // Asked of the open file: since it was listed, its number may have gone to another device.
+    // The identity must be that of the open file: since the listing, its number may have gone to
+    // another device.
     first_.require(name_, evdev_identity(file_));
   } catch (...) {
     close();
@@ -133,8 +134,9 @@ void EvdevTransport::open() {
   find_axes(path, traits);
 }
 
-/// In the order of the kernel's joystick driver (joydev_connect() in drivers/input/joydev.c), by
-/// which programs number them: those of joysticks and gamepads, then all others.
+/// Orders the buttons as the kernel's joystick driver does (joydev_connect() in
+/// drivers/input/joydev.c), because programs number them that way: first those of joysticks and
+/// gamepads, then all others.
 void EvdevTransport::find_buttons(const EvdevTraits& traits) {
   buttons_.clear();
   const auto add = [&](unsigned begin, unsigned end) {
@@ -178,7 +180,8 @@ ff::Description EvdevTransport::describe() const noexcept {
 
 bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
-  // A device without axes is queried as well, because the answer shows that it is still connected.
+  // The query also reaches a device without axes, because the answer shows that the device is still
+  // connected.
   if (call_ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
   if (right_axis_ >= 0 && !position_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !position_on(file_, up_axis_, position.up)) return false;

@@ -14,19 +14,19 @@
 
 namespace spidar {
 
-/// Accepts the requests of packets.h. A call takes as long as the driver needs;
-/// deadlines have no effect. The kernel stops and erases all effects when the last process that has
-/// the file open closes it or ends.
+/// Access to a force-feedback device through evdev, for the requests of packets.h. A call takes as
+/// long as the driver needs; deadlines have no effect. The kernel stops and erases all effects when
+/// the last process that has the file open closes it or ends.
 class EvdevTransport final : public Transport {
  public:
   /// `name` is for messages. An empty `path` means the first device of list_force_feedback(). Later
   /// openings look for the device that was opened first, whatever its number is by then. `axes` is
-  /// 1 for a wheel, 2 for a joystick, and 0 if is_wheel() is to tell.
+  /// 1 for a wheel, 2 for a joystick, and 0 if is_wheel() decides.
   EvdevTransport(std::string name, std::string path, int axes = 0);
   ~EvdevTransport() override;
 
   void open() override;
-  /// Does nothing, because calls are independent of each other.
+  /// The calls are independent of each other, so there is nothing to recover.
   void recover() noexcept override {}
   std::optional<LastWill> last_will() const override;
   void close() noexcept override;
@@ -51,11 +51,11 @@ class EvdevTransport final : public Transport {
   int file_ = -1;
   std::array<char, 80> device_name_{};
   bool starts_centred_ = false;
-  /// The number of axes follows from the USB ID.
+  /// Whether the number of axes follows from the USB ID.
   bool axes_by_id_ = false;
   int right_axis_ = -1;  ///< ABS_…; −1: none
   int up_axis_ = -1;
-  std::vector<uint16_t> buttons_;  ///< BTN_…, in the order in which they are counted
+  std::vector<uint16_t> buttons_;  ///< BTN_…, in the order of their bits
 };
 
 }  // namespace spidar

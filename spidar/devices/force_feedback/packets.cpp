@@ -74,7 +74,7 @@ std::optional<Effect> decode_effect(ByteView bytes) noexcept {
   if (effect.type == FF_RUMBLE) {
     result.rumble = double{1} * effect.u.rumble.strong_magnitude / kFullStrength;
   } else if (effect.type == FF_CONSTANT) {
-    // 0 is down; then clockwise: left, up, right.
+    // The direction 0 is down; then clockwise: left, up, right.
     const double angle_rad = effect.direction * 2 * M_PI / 0x10000;
     const double level = double{1} * effect.u.constant.level / kFullLevel;
     result.right = -std::sin(angle_rad) * level;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What fast exchanges know of a device whose updates are slow: its position, and whether it still
-/// follows.
+/// For a device whose updates are slow, what the fast exchanges know: the position, and whether the
+/// device still responds.
 #pragma once
 
 #include <algorithm>
@@ -16,19 +16,18 @@
 namespace spidar::boards {
 
 /// A driver that needs 50 ms for an update gives a position every 55 ms, and a hand moves a stick
-/// by 20 mm in that time. As a step, this would look to a damper like a very fast hand. The
-/// position therefore moves to a new reading at a constant speed within the time that the last
-/// update took. This costs no delay: a level is set in the same update that brings the next
-/// reading, when the position has just arrived.
+/// by 20 mm in that time. To a damper, such a step would look like a very fast hand. The position
+/// therefore moves to a new reading at a constant speed, for as long as the last update took. This
+/// costs no delay: the update that sets a level also brings the next reading, just when the
+/// position has arrived.
 ///
-/// update() is called by the thread that makes the updates, everything else by the one that
-/// exchanges.
+/// The thread that makes the updates calls update(), the thread that exchanges everything else.
 class StickPosition {
  public:
-  /// The longest time in which the position moves to a new reading.
+  /// The longest time that the position takes to a new reading.
   static constexpr int64_t kLongest_ns = 100'000'000;
 
-  /// Before update() is called for the first time.
+  /// Call this before the first update().
   void start(const ff::Position& position, int64_t now_ns) noexcept {
     seen_ns_ = shown_ns_ = now_ns;
     aim_ = {position, now_ns};
@@ -41,9 +40,9 @@ class StickPosition {
     seen_ns_ = now_ns;
   }
 
-  /// Moves to where the position is at this time.
+  /// Moves the position on to `now_ns`.
   void advance(int64_t now_ns) noexcept {
-    newest_.try_load(aim_);  // keeps the previous one while a new one is being written
+    newest_.try_load(aim_);  // keeps the previous reading while a new one is being written
     const Eigen::Vector2d to = fraction_of(aim_.position);
     const auto passed_ns = static_cast<double>(now_ns - shown_ns_);
     const auto left_ns = static_cast<double>(aim_.arrival_ns - shown_ns_);
@@ -52,9 +51,9 @@ class StickPosition {
     shown_ns_ = now_ns;
   }
 
-  /// Right and up, −1 … 1, as of the last advance().
+  /// Returns right and up, −1 … 1, as of the last advance().
   const Eigen::Vector2d& fraction() const noexcept { return shown_; }
-  /// See ff::Position, as of the last advance().
+  /// Returns ff::Position::buttons as of the last advance().
   uint32_t buttons() const noexcept { return aim_.position.buttons; }
 
  private:
@@ -74,25 +73,23 @@ class StickPosition {
   int64_t shown_ns_ = 0;
 };
 
-/// Exchanges are faster than updates. A failed update is reported to one exchange only, because the
+/// Exchanges are faster than updates, so a failed update is reported to one exchange only: the
 /// haptic loop gives up a device after 20 faults in a row, and a single failed update of a slow
-/// driver would last that long. Every exchange gets a fault when nothing shows that the device
-/// still follows: kFailures updates have failed in a row, or none has ended for kPatience_ns,
-/// because the driver does not return. The device holds its last force meanwhile, so the loop must
-/// not take it for a healthy one.
+/// driver would last that long. Every exchange reports a fault when kFailures updates have failed
+/// in a row, or none has ended for kPatience_ns because the driver does not return. The device
+/// holds its last force meanwhile, so the loop must not take the device for a healthy one.
 ///
-/// finish() is called by the thread that makes the updates, everything else by the one that
-/// exchanges.
+/// The thread that makes the updates calls finish(), the thread that exchanges everything else.
 class UpdateWatch {
  public:
-  /// Failures in a row before all exchanges fail, as for a board on USB (see StringLink): one
-  /// fault may concern only one packet.
+  /// Failures in a row after which all exchanges fail, as for a board on USB (see StringLink): a
+  /// single fault may concern only one packet.
   static constexpr uint32_t kFailures = 3;
   /// Twice the time that the slowest drivers need, about 50 ms, and as long as other exchanges of a
   /// force-feedback device may last.
   static constexpr int64_t kPatience_ns = 100'000'000;
 
-  /// Before finish() is called for the first time.
+  /// Call this before the first finish().
   void start(int64_t now_ns) noexcept {
     updates_ = last_ = {LinkFault::kNone, 0, 0, now_ns};
     newest_.store(updates_);
@@ -111,9 +108,9 @@ class UpdateWatch {
     newest_.store(updates_);
   }
 
-  /// The result that one exchange is to return.
+  /// Returns the result of one exchange.
   LinkFault report(int64_t now_ns) noexcept {
-    newest_.try_load(last_);  // keeps the previous one while a new one is being written
+    newest_.try_load(last_);  // keeps the previous result while a new one is being written
     const bool is_new = last_.failed != reported_;
     reported_ = last_.failed;
     if (now_ns - last_.finished_ns > kPatience_ns) return LinkFault::kTimeout;
@@ -122,9 +119,9 @@ class UpdateWatch {
 
  private:
   struct Updates {
-    LinkFault fault = LinkFault::kNone;  ///< of the last one that failed
+    LinkFault fault = LinkFault::kNone;  ///< of the last update that failed
     uint32_t failed = 0;
-    uint32_t in_a_row = 0;  ///< failed since the last one that succeeded
+    uint32_t in_a_row = 0;  ///< failed updates since the last success
     int64_t finished_ns = 0;
   };
 

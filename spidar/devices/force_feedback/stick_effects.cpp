@@ -38,7 +38,7 @@ std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& 
   return packet;
 }
 
-/// Why the driver has not accepted an effect, and what to do.
+/// Returns why the driver has not accepted an effect, and what to do.
 std::string reason(const Transfer& transfer) {
   const std::string why =
       transfer.error != 0 ? std::strerror(transfer.error) : to_string(transfer.fault);
@@ -65,7 +65,7 @@ StickEffects::StickEffects(std::string name, std::unique_ptr<Transport> transpor
       updates_(updates),
       options_(options) {}
 
-/// Of a driver that has not returned.
+/// True while a driver has not returned.
 bool StickEffects::thread_runs() const {
   return ended_.valid() && ended_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
 }
@@ -159,7 +159,7 @@ Transfer StickEffects::play(size_t effect) noexcept {
 LinkFault StickEffects::take_settings() noexcept {
   if (has_settings_ || !pulled_) return LinkFault::kNone;
   LinkFault fault = LinkFault::kNone;
-  // Also when these fail, because they may have arrived nevertheless.
+  // A call that fails also counts, because the setting may have arrived nevertheless.
   settings_changed_ = true;
   if (description_.gain) {
     fault = send(ff::encode_gain(static_cast<int>(std::lround(ff::kFullGain * gain())))).fault;
@@ -194,7 +194,7 @@ void StickEffects::return_settings_later() noexcept {
   try {
     transport_->open();
   } catch (const std::exception&) {
-    return;  // unplugged, after which its driver begins anew
+    return;  // the device was unplugged, after which its driver begins anew
   }
   return_settings();
   transport_->close();
@@ -221,7 +221,7 @@ int StickEffects::wanted_level(size_t effect) const noexcept {
     return static_cast<int>(
         std::lround(fraction_used * ff::kFullStrength * std::min(1.0, std::hypot(right, up))));
   }
-  // A force that is too strong keeps its direction.
+  // The limit keeps the direction of a force that is too strong.
   const double largest =
       effect_count_ > 1 ? std::max(std::abs(right), std::abs(up)) : std::abs(right);
   const double side = options_.flipped[effect] ? -1 : 1;
@@ -254,14 +254,14 @@ LinkFault StickEffects::set_one_level() noexcept {
   return LinkFault::kNone;
 }
 
-/// Starts effects again that are not at rest. An upload does not prolong an effect with every
-/// driver: hid-pidff sends only what has changed.
+/// Restarts effects that are not at rest. An upload does not prolong an effect with every driver:
+/// hid-pidff sends only what has changed.
 LinkFault StickEffects::refresh() noexcept {
   const int64_t time_ns = now_ns();
-  // Not when the loop hangs.
+  // Effects of a loop that hangs must end.
   if (time_ns - cycled_ns_ > kRefresh_ns) return LinkFault::kNone;
   for (size_t i = 0; i < effect_count_; ++i) {
-    // An effect that is about to be set to rest may have been stopped by the guardian.
+    // The guardian may have stopped an effect that is about to be set to rest.
     const bool rests = effects_[i].level == 0 || wanted_level(i) == 0;
     if (rests || time_ns - effects_[i].played_ns < kRefresh_ns) continue;
     const LinkFault fault = play(i).fault;
@@ -279,7 +279,8 @@ void StickEffects::update() noexcept {
 void StickEffects::run() noexcept {
   while (!stop_) {
     update();
-    // Counted from the end of the update, so that a slow driver is not called more often.
+    // The pause begins at the end of the update, so that the calls of a slow driver do not become
+    // denser.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
   end_effects();
@@ -300,7 +301,7 @@ LinkFault StickEffects::cycle(const Eigen::Vector2d& force_N, bool pulls) noexce
 void StickEffects::close(bool reopening) noexcept {
   reopening_ = reopening;
   if (!thread_.joinable()) {
-    // If the driver hangs, the thread ends the effects.
+    // If the driver hangs, the thread ends the effects later.
     if (updates_ == Updates::kInCycle && effect_count_ > 0) end_effects();
     if (!reopening) return_settings_later();
     return;
@@ -322,7 +323,7 @@ void StickEffects::end_effects() noexcept {
     const bool stopped = send(ff::encode_play(effects_[i].number, false)).fault == LinkFault::kNone;
     rests = rests && (stopped || (effects_[i].level == 0 && effects_[i].known));
   }
-  // More gain would make an effect stronger that has not been stopped; it ends by itself.
+  // More gain would make an effect stronger that still plays; that effect ends by itself.
   if (!rests && !reopening_ && updates_ == Updates::kOwnThread) {
     sleep_until_ns(monotonic_now_ns() + kEffect_ms * kMs);
   }

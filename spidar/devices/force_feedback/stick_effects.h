@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The effects of a force-feedback device, set by a thread that may wait for the driver.
 #pragma once
 
 #include <array>
@@ -22,15 +21,16 @@
 
 namespace spidar::boards {
 
-/// Drivers may need a long time for an update, or lose updates that come too fast. One effect for
-/// each axis is set at most every kUpdate_ms, one at a time, and only if it has changed. It lasts
-/// kEffect_ms, and is started again every kRefresh_ms as long as forces arrive, so that it ends
-/// by itself when this process hangs or is stopped.
+/// The effects of a force-feedback device, set by a thread that may wait for the driver. Drivers
+/// may need a long time for an update, or lose updates that follow too closely. Each axis has one
+/// effect. The thread sets at most one effect every kUpdate_ms, and only if it has changed. An
+/// effect lasts kEffect_ms and is restarted every kRefresh_ms as long as forces arrive, so that it
+/// ends by itself when this process hangs or is stopped.
 ///
-/// A call of a driver that hangs cannot be ended: the kernel lets no other call to the device pass
-/// until it returns, not even the guardian's. report() then returns a timeout, see UpdateWatch,
-/// and close() leaves the thread alone, which shares the ownership of this object and releases the
-/// device when the driver returns.
+/// No one can end a call of a driver that hangs: until the call returns, the kernel lets no other
+/// call to the device pass, not even the guardian's. report() then returns a timeout, see
+/// UpdateWatch. close() leaves the thread behind, which shares the ownership of this object and
+/// releases the device when the driver returns.
 ///
 /// A device that is only opened and read keeps its gain and its autocentre.
 class StickEffects : public std::enable_shared_from_this<StickEffects> {
@@ -42,7 +42,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   static constexpr int kHang_ms = 300;
 
   struct Options {
-    /// The fraction of the device's strength that is used, at most 1; 0: kDefaultGain, or all of it
+    /// The fraction of the device's strength that is used, at most 1. 0 means kDefaultGain, or 1
     /// for a device that only rumbles.
     double gain = 0;
     /// Whether the driver reverses the force, to the right and up.
@@ -54,8 +54,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
     kInCycle,    ///< every kUpdate_ms-th cycle(), for emulations
   };
 
-  /// Linux does not report how strong a device is. A wheel may turn with 20 N m, so a fifth is used
-  /// of a device that has a directional force, unless somebody has asked for more.
+  /// Linux does not report how strong a device is. A wheel may exert 20 N m, so a device with a
+  /// directional force uses a fifth of its strength unless the user asks for more.
   static constexpr double kDefaultGain = 0.2;
 
   StickEffects(std::string name, std::unique_ptr<Transport> transport, Updates updates,
@@ -63,18 +63,17 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
 
   /// Throws DeviceError.
   void open();
-  /// The centring spring stays off if `reopening`, for a hand that still holds the stick; the next
-  /// closing returns it, also if the device is not opened any more.
+  /// When `reopening`, the centring spring stays off for the hand that still holds the stick. The
+  /// next closing restores the spring, even if the device is not opened any more.
   void close(bool reopening) noexcept;
-  /// Sets the force in newtons, right and up, and whether forces are switched on. Returns what the
-  /// exchange is to report. Does not wait.
+  /// Sets the force in newtons, right and up, and whether forces are switched on. Returns the
+  /// result of the exchange. Does not wait.
   LinkFault cycle(const Eigen::Vector2d& force_N, bool pulls) noexcept;
-  /// Position of the stick, −1 … 1, as of the last cycle().
+  /// Returns the position of the stick, −1 … 1, as of the last cycle().
   const Eigen::Vector2d& position() const noexcept { return position_.fraction(); }
   uint32_t buttons() const noexcept { return position_.buttons(); }
 
   std::vector<LastWill> last_wills() const;
-  /// The capabilities of the open device.
   const ff::Description& description() const noexcept { return description_; }
   size_t effects() const noexcept { return effect_count_; }
   double gain() const noexcept {
@@ -84,8 +83,8 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
  private:
   struct Effect {
     int16_t number = ff::kNewEffect;
-    int level = 0;       ///< the level that is set; the strength of a rumble effect
-    bool known = false;  ///< the level is known to be set
+    int level = 0;       ///< the level in the device; the strength of a rumble effect
+    bool known = false;  ///< whether `level` is known to be in the device
     int64_t played_ns = 0;
   };
 
@@ -94,25 +93,25 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   Transfer upload(size_t effect, int level) noexcept;
   Transfer play(size_t effect) noexcept;
   Transfer send(ByteView event) noexcept;
-  /// Once forces are switched on: sets gain to the fraction that is used and autocentre to off,
-  /// which earlier programs or the driver may have left otherwise, and which would scale the force
-  /// or add to it. Until both have been accepted, no level is set.
+  /// Sets gain to the fraction that is used and autocentre to off, once forces are switched on:
+  /// earlier programs or the driver may have left settings that scale the force or add to it. No
+  /// level is set until the device has accepted both.
   LinkFault take_settings() noexcept;
-  /// The events that restore the settings: gain to full and, if the driver had turned it on,
-  /// autocentre by a ramp. They are to be sent kUpdate_ms apart.
+  /// Returns the events that restore the settings: gain to full and, if the driver had turned it
+  /// on, autocentre by a ramp. They must be sent kUpdate_ms apart.
   std::vector<ff::EventBytes> former_settings() const;
   void return_settings() noexcept;
-  /// Returns the settings of a device that was closed to be reopened, and was not.
+  /// Restores the settings of a device that was closed for reopening, but not reopened.
   void return_settings_later() noexcept;
   bool thread_runs() const;
   int wanted_level(size_t effect) const noexcept;
-  /// Reads the position, sets one level, restarts effects, and notes the result.
+  /// Reads the position, sets one level, restarts effects, and stores the result.
   void update() noexcept;
   LinkFault read_and_set() noexcept;
   LinkFault set_one_level() noexcept;
   LinkFault refresh() noexcept;
   void end_effects() noexcept;
-  /// The time; in emulations, that of the cycles, which need not take a millisecond each.
+  /// Returns the time; in emulations that of the cycles, which need not take a millisecond each.
   int64_t now_ns() const noexcept;
   void run() noexcept;
 
@@ -124,16 +123,16 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   ff::Description description_;
   std::array<Effect, 2> effects_{};  ///< right and up; a rumble effect uses the first
   size_t effect_count_ = 0;
-  size_t turn_ = 0;  ///< the effect that is checked first
+  size_t turn_ = 0;  ///< index of the effect that the next update checks first
   int64_t cycle_ = 0;
   std::thread thread_;
   std::future<void> ended_;  ///< of the thread; not valid before there is one
   std::atomic<bool> stop_{false};
   std::atomic<bool> reopening_{false};
-  std::atomic<bool> pulled_{false};    ///< since it was opened
+  std::atomic<bool> pulled_{false};    ///< whether forces were on since open()
   std::atomic<int64_t> cycled_ns_{0};  ///< the latest cycle()
   bool has_settings_ = false;          ///< take_settings() has succeeded
-  bool settings_changed_ = false;  ///< and not returned; since then, other openings may have been
+  bool settings_changed_ = false;  ///< not restored yet; since then, other openings may have been
   std::vector<ff::EventBytes> former_settings_;  ///< of the open device
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};

@@ -17,11 +17,11 @@
 
 namespace spidar::boards {
 
-/// One force and one state in each cycle: the service answers every message. A force is sent only
-/// when the previous one has been answered, so that none can arrive late.
+/// Sends one force and receives one state in each cycle: the service answers every message. A force
+/// is sent only after the answer to the previous one, so that no force arrives late.
 class Inverse3 final : public OnTransport<ForceBoard> {
  public:
-  /// `id` is the device's number in the service ("049D"); empty: the first one.
+  /// `id` is the device's number in the service ("049D"); empty: the first device.
   Inverse3(std::string name, std::unique_ptr<Transport> transport, std::string id = {})
       : OnTransport(std::move(name), std::move(transport)),
         id_(std::move(id)),
@@ -51,7 +51,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
              " is not calibrated: put its handle into the inkwell until its light is steady");
     }
     opened_ = true;
-    // Without the preset, positions would be elsewhere.
+    // Without the preset, positions would refer to another origin.
     const LinkFault start = open_exchange(
         [&](int64_t deadline_ns) {
           return ask(inverse3::encode_start(device_, text_), now_, deadline_ns);
@@ -67,7 +67,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
     const LinkFault fault =
         ask(inverse3::encode_force(device_, output.force_N, text_), now_, deadline_ns);
     if (fault != LinkFault::kNone) return fault;
-    // The origin of its positions is elsewhere.
+    // Another version of the service has another origin of positions.
     if (now_.version != device_.version) return LinkFault::kWrongReply;
     if (!now_.powered || !now_.calibrated) return LinkFault::kRefused;
     reading.position_m = now_.position_m;
@@ -95,18 +95,18 @@ class Inverse3 final : public OnTransport<ForceBoard> {
   GripAbilities abilities() const noexcept override { return kAbilities; }
 
  private:
-  /// Half of the side of the square in the circle of kReach_m.
+  /// Half of the side of the square that fits the circle of kReach_m.
   static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
   static constexpr GripAbilities kAbilities{.torque = false,
                                             .largest_force_N = inverse3::kLargestForce_N,
                                             .buttons = inverse3::kButtons,
                                             .half_room_m = {kRoom_m, kRoom_m, kRoom_m}};
 
-  /// Sends the first bytes of text_, and reads the state of the device.
+  /// Sends the first `length` bytes of text_, and reads the state of the device.
   LinkFault ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept {
     const Transfer transfer = transport_->exchange({{text_.data(), length}},
                                                    {answer_.data(), answer_.size()}, deadline_ns);
-    // An answer is as long as it is.
+    // The answer does not fill the buffer, which is no fault.
     if (transfer.fault != LinkFault::kNone && transfer.fault != LinkFault::kShort) {
       return transfer.fault;
     }
@@ -121,8 +121,8 @@ class Inverse3 final : public OnTransport<ForceBoard> {
     }
     return text.u8(text.size - 1) == '}' ? LinkFault::kWrongReply : LinkFault::kShort;
   }
-  /// The device to look for. After a loss it is the same device, because another hand may hold
-  /// another one.
+  /// The id to look for. After a loss the device must be the same, because another hand may hold
+  /// another device.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
   [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
                            SourceLocation location = SourceLocation::here()) const {
@@ -130,7 +130,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
   }
 
   const std::string id_;
-  inverse3::State device_;  ///< as it was when opened
+  inverse3::State device_;  ///< the state when the device was opened
   inverse3::State now_;
   bool opened_ = false;
   std::array<uint8_t, inverse3::kCommandSize> text_{};
@@ -141,8 +141,8 @@ class Inverse3 final : public OnTransport<ForceBoard> {
 
 namespace spidar::emulated {
 
-/// Its digits are the force in millinewtons, its counts the position in micrometres: to the right,
-/// up, towards the viewer. The inputs are the buttons.
+/// The emulated service. Its digits are the force in millinewtons and its counts the position in
+/// micrometres: right, up, towards the viewer. The inputs are the buttons.
 class Inverse3 final : public Board {
  public:
   explicit Inverse3(std::shared_ptr<Motors> motors,
@@ -165,7 +165,7 @@ class Inverse3 final : public Board {
     return inverse3::encode_state(state, bytes);
   }
 
-  inverse3::State state;  ///< what it reports, except for position and buttons
+  inverse3::State state;  ///< what the service reports, except for position and buttons
 
  private:
   bool due_ = false;
@@ -195,7 +195,7 @@ boards::AnyBoard make_inverse3(const std::string& name, const std::string& rest,
   return std::make_unique<boards::Inverse3>(name, std::move(service), rest.substr(0, comma));
 }
 
-/// To ask the service would be a session there.
+/// A query would open a session in the service.
 std::vector<DeviceInfo> list_inverse3() {
   if (!is_listening(inverse3::kPort)) return {};
   DeviceInfo board;

@@ -12,9 +12,9 @@
 namespace spidar::inverse3 {
 namespace {
 
-/// From the foot of the device, in its own axes.
+/// The middle of the workspace from the foot of the device, in the device's own axes.
 const Eigen::Vector3d kMiddle_m(0, -0.1, 0.18);
-/// Longest identifier. The published ones are hexadecimal.
+/// The longest accepted identifier. The published ones are hexadecimal.
 constexpr size_t kIdLength = 64;
 
 Eigen::Vector3d to_device(const Eigen::Vector3d& haply) noexcept {
@@ -25,13 +25,13 @@ Eigen::Vector3d to_haply(const Eigen::Vector3d& device) noexcept {
   return {device.x(), -device.z(), device.y()};
 }
 
-/// Discarded when it is none.
+/// Returns a discarded value when the text is not JSON.
 ReadJson parse(ByteView text) {
   std::string why;
   return parse_json({reinterpret_cast<const char*>(text.data), text.size}, why);
 }
 
-/// Null when there is no such field.
+/// Returns null when there is no such field.
 const ReadJson* field(const ReadJson* of, const char* name) {
   if (!of || !of->is_object()) return nullptr;
   const auto found = of->find(name);
@@ -52,7 +52,7 @@ bool is_true(const ReadJson* flag, bool otherwise) {
   return flag && flag->is_boolean() ? flag->get<bool>() : otherwise;
 }
 
-/// Goes into messages as it is.
+/// Messages contain the id as it is, so it must be plain.
 bool is_id(const ReadJson* id) {
   if (!id || !id->is_string()) return false;
   const auto& text = id->get_ref<const std::string&>();
@@ -62,7 +62,7 @@ bool is_id(const ReadJson* id) {
          });
 }
 
-/// In the list of Inverse3s of a message, or of commands; null if it is not there.
+/// Looks in the list of Inverse3s of a message, or of commands; null if the device is not there.
 const ReadJson* device_in(const ReadJson& message, std::string_view id) {
   const ReadJson* devices = field(&message, "inverse3");
   if (!devices || !devices->is_array()) return nullptr;
@@ -73,7 +73,7 @@ const ReadJson* device_in(const ReadJson& message, std::string_view id) {
   return nullptr;
 }
 
-/// The buttons of the first handle that has any; a wireless one has three, the other has one.
+/// The buttons of the first handle that has any: a wireless handle has three, the other has one.
 uint32_t buttons_in(const ReadJson& message) {
   for (const char* kind : {"wireless_verse_grip", "verse_grip", "custom_verse_grip"}) {
     const ReadJson* handles = field(&message, kind);
@@ -123,7 +123,7 @@ class Writer {
     }
     return *this;
   }
-  /// To micrometres and micronewtons. A decimal point in every language.
+  /// Appends micrometres or micronewtons, with a decimal point in every language.
   Writer& vector(const Eigen::Vector3d& vector) noexcept {
     return text("{\"x\":")
         .number(vector.x())
@@ -140,7 +140,7 @@ class Writer {
     std::array<char, 32> digits{};
     const auto [end, error] = std::to_chars(digits.data(), digits.data() + digits.size(),
                                             number + 0.0, std::chars_format::fixed, 6);
-    // JSON has no infinity, and nothing has such a number of digits.
+    // JSON has no infinity, and no valid number has so many digits.
     if (error != std::errc() || !std::isfinite(number)) fits_ = false;
     return text({digits.data(), static_cast<size_t>(end - digits.data())});
   }
@@ -187,7 +187,7 @@ size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
                     MutableBytes bytes) noexcept {
   Eigen::Vector3d limited_N = Eigen::Vector3d::Zero();
   if (force_N.allFinite()) limited_N = force_N;
-  // Each axis is limited first, so that the length is finite.
+  // Limiting each axis first keeps the length finite.
   limited_N = limited_N.cwiseMax(-1e6).cwiseMin(1e6);
   if (limited_N.norm() > kLargestForce_N) limited_N *= kLargestForce_N / limited_N.norm();
   Writer writer(bytes);

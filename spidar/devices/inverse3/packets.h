@@ -8,10 +8,10 @@
 /// service answers each message with one that has the state of every device. Positions are in m,
 /// forces in N, x to the right, y away from the user, z up.
 ///
-/// Inferred: that the version shows in the state, which has current_cursor_force since 3.5; where
+/// We infer that the version shows in the state, which has current_cursor_force since 3.5; where
 /// the middle of the workspace is without the preset that puts the origin there (the crate's
-/// examples put their objects there); which button is which; the largest force, of which only
-/// distributors write. Pure, except that the parser of JSON uses memory.
+/// examples put their objects there); which button is which; and the largest force, of which only
+/// distributors write. The functions only convert text and numbers; the parser of JSON allocates.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ constexpr uint16_t kPort = 10001;
 constexpr double kLargestForce_N = 10;
 /// The published examples keep the cursor this close to the middle of the workspace.
 constexpr double kReach_m = 0.1;
-/// Nothing that the device reports is farther from its foot; a number beyond is in another unit.
+/// Every true position is nearer to the foot of the device; a larger number is in another unit.
 constexpr double kFarthest_m = 1;
 constexpr int kButtons = 3;
 /// Longest message to the service.
 constexpr size_t kCommandSize = 512;
-/// Room for the state of more devices than a computer has, with their configuration.
+/// The capacity for the state of more devices than a computer has, with their configuration.
 constexpr size_t kStateSize = 65536;
 
 enum class Version {
@@ -47,7 +47,7 @@ struct State {
   std::string id;
   Version version = Version::k31;
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< from the middle of the workspace
-  uint32_t buttons = 0;  ///< of the handle: a (or the only one), b, c
+  uint32_t buttons = 0;  ///< of the handle: a (or the only button), b, c
   bool calibrated = true;
   bool powered = true;
 };
@@ -55,27 +55,28 @@ struct State {
 enum class Answer {
   kState,
   kAbsent,  ///< the service does not list the device
-  kBroken,  ///< no JSON, a missing field, or a number that is none or is impossible
+  kBroken,  ///< not JSON, a missing field, or an impossible number
 };
 
-/// Finds the device `id`, or the first if that is empty.
+/// Finds the device `id`, or the first device if `id` is empty.
 Answer decode_state(ByteView message, std::string_view id, State& state) noexcept;
 
 /// All three encoders return the length, or 0 if the message is larger than `bytes`. encode_query()
-/// asks for all that the service knows; encode_start() names this program and, for k35, chooses the
+/// requests the state of everything; encode_start() names this program and, for k35, chooses the
 /// preset.
 size_t encode_query(MutableBytes bytes) noexcept;
 size_t encode_start(const State& device, MutableBytes bytes) noexcept;
-/// The force is shortened to kLargestForce_N; a force that is not a number counts as zero.
+/// Reduces the force to kLargestForce_N; a force that is not a number counts as zero.
 size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
                     MutableBytes bytes) noexcept;
 
-/// For the emulation. False if the message has no force; `force_N` is in the device frame.
+/// Decodes the force for the emulation, in the device frame. Returns false if there is none.
 bool decode_force(ByteView message, std::string_view id, Eigen::Vector3d& force_N) noexcept;
 size_t encode_state(const State& state, MutableBytes bytes) noexcept;
 
-/// The text as a frame of a WebSocket's client (RFC 6455, 5.2), unmasked by a key of zero, for a
-/// guardian that has only the socket. 0 as above; texts of up to kCommandSize bytes.
+/// Encodes the text as a frame of a WebSocket client (RFC 6455, 5.2), masked by a key of zero, for
+/// a guardian that has only the socket. Returns the length, or 0 if the frame does not fit; takes
+/// texts of up to kCommandSize bytes.
 size_t encode_frame(ByteView text, MutableBytes frame) noexcept;
 constexpr size_t kFrameHead = 8;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The SPIDAR-mouse: two force axes, no position.
 #include <array>
 #include <cmath>
 #include <string>
@@ -13,7 +12,7 @@
 
 namespace spidar::boards {
 
-/// Its grip is always at the centre.
+/// The SPIDAR-mouse: two force axes. Its grip is always at the centre.
 class Mouse final : public OnTransport<ForceBoard> {
  public:
   using OnTransport::OnTransport;
@@ -90,7 +89,7 @@ class Mouse final : public OnTransport<ForceBoard> {
 
 namespace spidar::emulated {
 
-/// Its digits are the force in millinewtons, x and y.
+/// The emulated SPIDAR-mouse. Its digits are the force in millinewtons, x and y.
 class Mouse final : public Board {
  public:
   using Board::Board;

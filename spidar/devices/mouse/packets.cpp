@@ -8,7 +8,7 @@
 namespace spidar::mouse {
 namespace {
 
-// Constants from force to duty, as published; their meaning is not.
+// The published constants from force to duty, whose meaning is not published.
 constexpr float kDutyA = 47.9867F;
 constexpr float kDutyB = 13.1215F;
 constexpr size_t kNumbersAt = 1;
@@ -50,7 +50,7 @@ void encode_force(const Eigen::Vector2d& force_N, Report& report) noexcept {
   begin(Command::kForce, report);
   const double total_N = std::hypot(force_N.x(), force_N.y());
   if (!std::isfinite(total_N) || total_N <= 0) return;
-  // Numbers 0 and 1 are the position of the grip, for which there is no sensor.
+  // Numbers 0 and 1 are the position of the grip, which no sensor measures.
   put_float(report, 2, static_cast<float>(std::fmin(total_N, kMaxForce_N)));
   put_float(report, 3, static_cast<float>(force_N.x() / total_N));
   put_float(report, 4, static_cast<float>(force_N.y() / total_N));

@@ -61,7 +61,7 @@ double max_frequency_squared(const StringGeometry& geometry, const StringVector&
 
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
   const double angle = vector_rad.norm();
-  // sin(a/2)/a; the limit for small a.
+  // sin(a/2)/a, or its limit for small a.
   const double scale = angle > 1e-8 ? std::sin(angle / 2) / angle : 0.5;
   Eigen::Quaterniond rotation;
   rotation.w() = std::cos(angle / 2);
@@ -74,7 +74,7 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& vector_rad) {
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept {
   const double sine = rotation.vec().norm();
   const double sign = rotation.w() < 0 ? -1.0 : 1.0;
-  // angle / sin(angle/2); the limit for zero rotation.
+  // angle / sin(angle/2), or its limit for zero rotation.
   const double scale = sine > 1e-8 ? 2 * std::atan2(sine, sign * rotation.w()) / sine : 2.0;
   return sign * scale * rotation.vec();
 }
@@ -96,7 +96,7 @@ GripDynamics::GripDynamics(const StringGeometry& geometry, const StringVector& m
 }
 
 // With β = h b/m and κ = h² k/m one step of a mode is x⁺ = x + y⁺, y⁺ = (y − κ x)/(1 + β) where y =
-// h v. Its eigenvalues are inside the unit circle when κ < 4 + 2β (Jury): damping always improves
+// h v. The eigenvalues are inside the unit circle when κ < 4 + 2β (Jury): damping always improves
 // stability, and h ω < 2 is sufficient.
 void GripDynamics::substep(const StringVector& target_N, const Pose& hand, double h_s,
                            double lag_decay, GripDynamics::State& state) const noexcept {

@@ -15,7 +15,7 @@
 
 namespace spidar {
 
-/// Rigid grip on strings, held by a hand. The hand carries the grip's weight.
+/// A rigid grip on strings, held by a hand that carries the weight of the grip.
 struct GripModel {
   double mass_kg = 0.10;
   double inertia_kg_m2 = 4e-5;        ///< solid sphere of that mass and 32 mm radius
@@ -24,7 +24,8 @@ struct GripModel {
   double hand_stiffness_Nm_rad = 1.5;
   double hand_damping_Nm_s_rad = 0.02;
   double motor_time_constant_s = 0.002;  ///< first-order lag from volts to tension
-  double motor_delay_s = 0;  ///< pure delay before that, at most kMaxDelay_s; of SimulatedDevice
+  /// Delay before that lag, at most kMaxDelay_s; only SimulatedDevice has it.
+  double motor_delay_s = 0;
 
   static constexpr double kMaxDelay_s = 0.05;
 };
@@ -40,22 +41,21 @@ class GripDynamics {
     StringVector tension_N = StringVector::Zero();
   };
 
-  /// `max_tension_N` bounds the tensions that advance() will be given; the step follows from it.
-  /// Throws std::invalid_argument when the model is not physical (mass and inertia above zero, the
-  /// rest not negative, all finite) or so stiff that a millisecond takes more than kMaxSubsteps.
+  /// `max_tension_N` bounds the tensions of advance(), and determines the step. Throws
+  /// std::invalid_argument when the model is not physical (mass and inertia above zero, the rest
+  /// not negative, all finite) or so stiff that a millisecond takes more than kMaxSubsteps.
   GripDynamics(const StringGeometry& geometry, const StringVector& max_tension_N,
                const GripModel& model);
 
   static constexpr int kMaxSubsteps = 1000;
 
-  /// Moves `state` on by `dt_s` ≥ 0. Tensions follow `target_N` with the motors' lag. The hand's
-  /// springs pull towards `hand`; its dampers act against the grip's own velocity, because only
-  /// the position of the hand is given. The grip's origin stays within limit_m() of the
-  /// centre: at the limit it stops, losing its outward velocity.
+  /// Advances `state` by `dt_s` ≥ 0. Tensions follow `target_N` with the motors' lag. The hand's
+  /// springs pull towards `hand`; its dampers act against the grip's own velocity, because the hand
+  /// has only a position. The grip's origin stays within limit_m() of the centre, where it loses
+  /// its outward velocity.
   void advance(const StringVector& target_N, const Pose& hand, double dt_s,
                State& state) const noexcept;
 
-  /// Wrench of the strings on the grip.
   Wrench string_wrench(const State& state) const noexcept;
 
   /// Longest substep, seconds.
@@ -77,26 +77,26 @@ class GripDynamics {
 /// Rotation vector of `rotation`, in radians, with an angle of at most π.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
 
-/// A pure delay, as caused by a board, its amplifiers and its packets. Fixed size, no allocation.
+/// A pure delay, as of a board, its amplifiers and its packets. Fixed size, no allocation.
 class DelayedTensions {
  public:
   /// At one command per millisecond, a delay of 50 ms holds 50 commands.
   static constexpr size_t kCapacity = 64;
 
-  /// Adds a command at `time_ns`, which must not decrease, that takes effect at `time_ns` +
+  /// Adds a command at `time_ns`, which must not decrease; the command takes effect at `time_ns` +
   /// `delay_ns`. When the queue is full, the oldest command takes effect early.
   void put(int64_t time_ns, int64_t delay_ns, const StringVector& tension_N) noexcept {
     if (count_ == kCapacity) drop();
     waiting_[(first_ + count_++) % kCapacity] = {time_ns + delay_ns, tension_N};
   }
 
-  /// The tensions in effect at `now_ns`.
+  /// Returns the tensions in effect at `now_ns`.
   const StringVector& at(int64_t now_ns) noexcept {
     while (count_ > 0 && waiting_[first_].from_ns <= now_ns) drop();
     return acting_N_;
   }
 
-  /// Time of the next change after at(); INT64_MAX when no command is pending.
+  /// Returns the time of the next change after at(); INT64_MAX when no command is pending.
   int64_t next_ns() const noexcept { return count_ > 0 ? waiting_[first_].from_ns : INT64_MAX; }
 
   /// Discards all commands and sets the tensions to zero.
@@ -120,11 +120,11 @@ class DelayedTensions {
   StringVector acting_N_ = StringVector::Zero();
 };
 
-/// Moves the hand towards its target at a limited speed. Without a target it returns to its resting
-/// pose, and then stays exactly there.
+/// Moves the hand towards its target at a limited speed. Without a target the hand returns to its
+/// resting pose, and then stays exactly there.
 class LedHand {
  public:
-  /// Speed of a brisk stroke. People explore surfaces at 0.01 … 0.25 m/s (R. Klatzky and S.
+  /// The speed of a brisk stroke. People explore surfaces at 0.01 … 0.25 m/s (R. Klatzky and S.
   /// Lederman, Tactile roughness perception with a rigid link interposed between skin and surface,
   /// Perception & Psychophysics 61, 1999), and reach faster.
   static constexpr double kFastest_m_s = 0.5;
@@ -135,7 +135,7 @@ class LedHand {
                       double dt_s) noexcept;
 
  private:
-  bool away_ = false;  ///< not at the resting pose
+  bool away_ = false;  ///< whether the hand is away from its resting pose
   Pose pose_;
 };
 

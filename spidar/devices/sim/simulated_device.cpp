@@ -94,7 +94,7 @@ struct SimulatedDevice::Impl {
   void release() noexcept {
     if (!open) return;
     open = false;
-    // Without power, pending commands are lost.
+    // A loss of power discards pending commands.
     delayed.clear();
     // After ten time constants less than 5e-5 of any tension is left.
     const auto steps = static_cast<int64_t>(std::ceil(10 * model_lag_s * 1e9 / kStep_ns));
@@ -113,7 +113,7 @@ struct SimulatedDevice::Impl {
   const int64_t delay_ns;
   const GripDynamics dynamics;
   const StringVector zero_length_m;
-  // Used only by the thread that calls exchange().
+  // Only the thread that calls exchange() uses these members.
   bool open = false;
   int64_t time_ns = 0;
   int64_t last_ns = 0;
@@ -122,7 +122,7 @@ struct SimulatedDevice::Impl {
   LedHand led_hand;
   GripDynamics::State state;
   DelayedTensions delayed;
-  // Shared.
+  // All threads share these members.
   std::mutex hand_writers;
   Seqlock<Pose> hand_shared;
   Seqlock<std::optional<Eigen::Vector3d>> lead_shared;

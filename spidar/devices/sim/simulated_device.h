@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The simulated SPIDAR-G, which is the default device.
 #pragma once
 
 #include <cstdint>
@@ -29,11 +28,11 @@ struct FeltState {
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
 };
 
-/// The model of a device with this profile: its motors lag by drive_lag_s, first order.
+/// Returns the model of a device with this profile, whose motors lag by drive_lag_s, first order.
 GripModel grip_model_of(const Profile& profile);
 
-/// Simulates quantised encoders and D/A converters, motors with lag and saturation, and strings
-/// that only pull.
+/// The simulated SPIDAR-G, which is the default device: quantised encoders and D/A converters,
+/// motors with lag and saturation, and strings that only pull.
 ///
 /// An exchange takes no time, and its voltages act until the next one. Like a real board, the
 /// device holds the voltages when the host stops sending: with kClock the strings keep pulling
@@ -41,7 +40,7 @@ GripModel grip_model_of(const Profile& profile);
 class SimulatedDevice final : public StringDevice {
  public:
   enum class Time {
-    kFixedStep,  ///< each exchange is 1 ms after the last: deterministic
+    kFixedStep,  ///< each exchange is 1 ms after the last, which is deterministic
     kClock,      ///< real time, at most 50 ms per exchange
   };
 
@@ -56,8 +55,8 @@ class SimulatedDevice final : public StringDevice {
   /// set.
   void open() override;
 
-  /// Returns kGone when not open. Voltages that are not finite or have the wrong sign count as
-  /// zero.
+  /// Returns kGone when the device is not open. Voltages that are not finite or have the wrong sign
+  /// count as zero.
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
   /// Continues the simulation at zero volts until the motor lag has decayed, for at most 50 ms.
@@ -73,20 +72,19 @@ class SimulatedDevice final : public StringDevice {
   /// position that is not finite is ignored. Any thread.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
-  /// Makes every exchange return this fault until it is called with kNone. Time goes on meanwhile.
-  /// With kTimeout the volts do not reach the motors, with other faults they do; a fault that
-  /// is_lost() closes the device. Any thread.
+  /// Makes every exchange return this fault until a call with kNone. Time goes on meanwhile. With
+  /// kTimeout the volts do not reach the motors, with other faults they do; a fault that is_lost()
+  /// closes the device. Any thread.
   void set_fault(LinkFault fault) noexcept;
 
   /// Adds an offset to the encoder of `string` (0 … count − 1), as lost pulses or a slack string
   /// do. Any thread. Throws std::out_of_range.
   void set_count_error(int string, int32_t counts);
 
-  /// Newest state; any thread.
   FeltState felt() const noexcept;
 
-  /// The next state, one per exchange, for one reader. Returns false when there is none. Up to 4096
-  /// are kept; newer ones are dropped while the queue is full.
+  /// Gives the next state, one per exchange, to one reader. Returns false when there is none. The
+  /// queue keeps up to 4096 states, and drops newer ones while it is full.
   bool pop_felt(FeltState& felt) noexcept;
 
  private:

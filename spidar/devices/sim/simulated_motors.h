@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motors and encoders of a simulated SPIDAR, connected to an emulated board.
 #pragma once
 
 #include <array>
@@ -19,10 +18,11 @@ struct SimulatedMechanics {
   std::function<int64_t()> clock;  ///< none: CLOCK_MONOTONIC
 };
 
-/// Grip, hand and motors are those of SimulatedDevice, which moves when the board puts out digits.
+/// The motors and encoders of a SimulatedDevice behind an emulated board. The mechanics advance
+/// when the board outputs digits.
 class SimulatedMotors final : public Motors {
  public:
-  /// `dac` is that of the board. Throws std::invalid_argument as SimulatedDevice does.
+  /// `dac` belongs to the board. Throws std::invalid_argument as SimulatedDevice does.
   SimulatedMotors(const Profile& profile, const boards::DacScale& dac,
                   const SimulatedMechanics& mechanics)
       : device_(profile, SimulatedDevice::Time::kClock,

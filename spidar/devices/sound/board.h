@@ -18,8 +18,9 @@
 
 namespace spidar::boards {
 
-/// Needs no guardian: the card stops by itself. The kernel stops it when this process ends, and
-/// when this process is stopped, the card falls silent after its buffer (SoundTransport).
+/// The card needs no guardian because it stops by itself: the kernel stops the card when this
+/// process ends, and when this process is stopped, the card falls silent after its buffer
+/// (SoundTransport).
 class Sound final : public OnTransport<ForceBoard> {
  public:
   Sound(std::string name, std::unique_ptr<Transport> transport, sound::Settings settings = {})
@@ -62,7 +63,7 @@ class Sound final : public OnTransport<ForceBoard> {
         settings_.channels, settings_.channels > 1 ? "s" : "", settings_.carrier_Hz,
         100 * settings_.gain);
     const int64_t lag_ns = lag_ns_;
-    if (lag_ns > 0) {  // known once it plays
+    if (lag_ns > 0) {  // the lag is known once the card plays
       std::snprintf(text + length, sizeof text - static_cast<size_t>(length),
                     ", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The emulated sound card.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace spidar::emulated {
 
-/// Its digits are the levels of the channels in thousandths.
+/// The emulated sound card. Its digits are the levels of the channels in thousandths.
 class Sound final : public Board {
  public:
   using Board::Board;
@@ -35,7 +34,7 @@ class Sound final : public Board {
     return sizeof state;
   }
 
-  sound::State state{30'000'000};  ///< what it reports
+  sound::State state{30'000'000};  ///< what the card reports
 
  private:
   bool due_ = false;

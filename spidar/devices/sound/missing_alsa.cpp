@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// In a build without ALSA.
+// The kinds of a build without ALSA.
 #include "spidar/device.h"
 #include "spidar/devices/sound/sound_cards.h"
 #include "spidar/devices/sound/sound_transport.h"

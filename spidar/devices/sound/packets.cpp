@@ -14,7 +14,7 @@
 namespace spidar::sound {
 namespace {
 
-/// "x", "-y" or "0.6/0.8/0"; zero if it is something else, or has no direction.
+/// Parses "x", "-y" or "0.6/0.8/0"; returns zero for any other text and for a zero vector.
 Eigen::Vector3d direction_of(const std::string& text) {
   const bool negative = text[0] == '-';
   const std::string letter = text.substr(negative);
@@ -33,7 +33,7 @@ Eigen::Vector3d direction_of(const std::string& text) {
   return vector.stableNormalized();
 }
 
-/// A whole number from `least` to `most`; −1 if it is something else.
+/// Parses a whole number from `least` to `most`; returns −1 for any other text.
 int number_in(const std::string& text, int least, int most) {
   if (text.empty() || text.size() > 3 ||
       text.find_first_not_of("0123456789") != std::string::npos) {
@@ -43,7 +43,7 @@ int number_in(const std::string& text, int least, int most) {
   return value >= least && value <= most ? value : -1;
 }
 
-/// Returns false if it is no option, or was given before.
+/// Returns false for a text that is not an option, and for an option that was given before.
 bool take_option(const std::string& option, Settings& settings, bool& has_carrier, bool& has_gain) {
   const size_t equals = option.find('=');
   if (equals == std::string::npos || equals + 1 == option.size()) return false;

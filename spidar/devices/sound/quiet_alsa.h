@@ -8,12 +8,13 @@
 
 namespace spidar {
 
-/// snd_lib_error_set_local(): ALSA's header declares it as a C++ function, which its library lacks.
+/// This is snd_lib_error_set_local(), which ALSA's header declares as a C++ function that its
+/// library lacks.
 extern "C" snd_local_error_handler_t set_alsa_error_handler(
     snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
 
-/// During its lifetime, ALSA's library does not print errors of this thread on the standard error:
-/// what matters is in the DeviceError. A handler that the program has set stays.
+/// During the lifetime of this object, ALSA's library does not print errors of this thread on the
+/// standard error: the DeviceError has what matters. A handler that the program has set stays.
 class QuietAlsa {
  public:
   QuietAlsa() noexcept : before_(set_alsa_error_handler(ignore)) {}

@@ -14,13 +14,13 @@
 namespace spidar {
 namespace {
 
-/// PCMs of ALSA's configuration and its plugins that play somewhere else: on what a server or a
+/// PCMs of ALSA's configuration and its plugins that play on another device, which a server or a
 /// setting chooses.
 constexpr const char* kElsewhere[] = {"default",   "sysdefault", "pulse", "pipewire", "jack",
                                       "oss",       "null",       "dmix",  "lavrate",  "samplerate",
                                       "speexrate", "speex",      "upmix", "vdownmix", "usbstream"};
 
-/// The first device of a card that plays; −1: none.
+/// Returns the first playback device of a card; −1: none.
 int playing_device(snd_ctl_t* control) {
   snd_pcm_info_t* info = nullptr;
   snd_pcm_info_alloca(&info);
@@ -51,8 +51,8 @@ void add_cards(std::vector<SoundCard>& found) {
   }
 }
 
-/// Adds the PCMs that a person has configured, with a hint; names with a colon or a comma are those
-/// of cards.
+/// Adds the PCMs that a person has configured with a hint; names with a colon or a comma belong to
+/// cards.
 void add_configured(std::vector<SoundCard>& found) {
   void** hints = nullptr;
   if (snd_device_name_hint(-1, "pcm", &hints) < 0) return;

@@ -14,7 +14,7 @@ namespace spidar {
 struct SoundCard {
   std::string id;  ///< of the card, "Controller", or of a device that the ALSA configuration names
   std::string name;         ///< for people
-  std::string pcm;          ///< what ALSA calls it
+  std::string pcm;          ///< ALSA's name of the device
   std::string place = pcm;  ///< ALSA's long name; with the port of a card on USB
 
   DeviceIdentity identity() const { return {name, "", place}; }
@@ -24,20 +24,20 @@ struct SoundCard {
 /// another one. Opens no PCM.
 std::vector<SoundCard> list_sound_cards();
 
-/// ALSA's number of a card; nothing for a device that its configuration names.
+/// Returns ALSA's number of a card; nothing for a device that the configuration names.
 std::optional<int> card_number(const std::string& id);
 
-/// The card with this id or, if `first` knows a card, that same card, whatever its id is by
-/// now: the kernel gives the id of a card that is gone to the next one of its name. Throws
-/// DeviceError for `device` if the card is not there, or if another one has its id now.
+/// Returns the card with this id or, if `first` knows a card, that same card under any id: the
+/// kernel gives the id of a card that is gone to the next card of that name. Throws DeviceError for
+/// `device` if the card is not there, or if another card has its id now.
 SoundCard resolve_card(const std::string& device, const std::string& id, const FirstDevice& first,
                        const std::vector<SoundCard>& cards);
 
-/// "there are sound:Controller, sound:shaker"
+/// Returns "there are sound:Controller, sound:shaker".
 std::string names_of(const std::vector<SoundCard>& cards);
 
-/// Whether a PCM of ALSA's configuration plays nowhere, or elsewhere: on whatever a server or a
-/// setting chooses, or converted on another PCM.
+/// Returns whether a PCM of ALSA's configuration plays nowhere or on another device: one that a
+/// server or a setting chooses, or another PCM after a conversion.
 bool plays_elsewhere(const std::string& id);
 
 }  // namespace spidar

@@ -28,7 +28,6 @@ constexpr int64_t ns_of(snd_pcm_sframes_t frames) {
 
 }  // namespace
 
-/// A device that plays.
 class SoundTransport::Pcm {
  public:
   /// Throws DeviceError, whose text begins with `name`.
@@ -37,14 +36,14 @@ class SoundTransport::Pcm {
   Pcm(const Pcm&) = delete;
   Pcm& operator=(const Pcm&) = delete;
 
-  /// Waits until there may be room for a block. Returns how much is to be heard before it; nothing
-  /// when there is no room; or ALSA's error, below 0.
+  /// Waits until there may be room for a block. Returns how many frames play before the block;
+  /// nothing when there is no room; ALSA's error, below 0.
   std::optional<snd_pcm_sframes_t> wait_for_room() noexcept;
   /// Returns ALSA's error, or 0.
   int write(const uint8_t* block) noexcept;
-  /// Goes on after an error. False if that is not possible.
+  /// Continues after an error. Returns false if that is not possible.
   bool recover(int error) noexcept;
-  /// Plays what it has.
+  /// Plays the rest of the buffer.
   void drain() noexcept;
 
   int channels() const noexcept { return static_cast<int>(channels_); }
@@ -55,7 +54,7 @@ class SoundTransport::Pcm {
   int period_ms() const noexcept {
     return static_cast<int>(ns_of(static_cast<snd_pcm_sframes_t>(period_)) / kMillisecond_ns);
   }
-  /// What it has lasts for this time.
+  /// For how long the buffer lasts.
   int64_t held_ns() const noexcept { return ns_of(held_); }
   bool is_running() const noexcept { return snd_pcm_state(handle_) == SND_PCM_STATE_RUNNING; }
 
@@ -65,10 +64,10 @@ class SoundTransport::Pcm {
 
   snd_pcm_t* handle_ = nullptr;
   unsigned channels_ = 0;
-  int bytes_ = 0;  ///< of a sample
+  int bytes_ = 0;  ///< per sample
   snd_pcm_uframes_t buffer_ = 0, period_ = 0;
-  snd_pcm_sframes_t held_ = 0;  ///< of the buffer, so much is used
-  int64_t next_ns_ = 0;         ///< a block is due
+  snd_pcm_sframes_t held_ = 0;  ///< frames in the buffer that are used
+  int64_t next_ns_ = 0;         ///< when the next block is due
   std::string error_;
 };
 
@@ -92,7 +91,8 @@ SoundTransport::Pcm::Pcm(const std::string& name, const SoundCard& card, int lea
                     DeviceErrorCode::kSettings);
 }
 
-/// The fewest channels that the device itself has, because a conversion would play them elsewhere.
+/// Opens at least as many channels as the device itself has, because a conversion would play them
+/// on other outputs.
 int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
   constexpr std::pair<snd_pcm_format_t, int> kFormats[] = {
       {SND_PCM_FORMAT_S16_LE, 2}, {SND_PCM_FORMAT_S32_LE, 4}, {SND_PCM_FORMAT_S24_3LE, 3}};
@@ -131,15 +131,15 @@ int SoundTransport::Pcm::set_hardware(unsigned least_channels) {
   return error;
 }
 
-/// It starts when all but a block of what it is to hold is there, and stops by itself when it has
-/// played all that it has. Between two of its periods it may report less than it has taken.
+/// The device starts when its buffer lacks only one block, and stops by itself when the buffer is
+/// empty. Between two of its periods it may report less than it has taken.
 int SoundTransport::Pcm::set_software() {
   error_ = "its buffer is too small";
   int error = snd_pcm_get_params(handle_, &buffer_, &period_);
   if (error < 0) return error;
   held_ = static_cast<snd_pcm_sframes_t>(
       std::min(buffer_, std::max<snd_pcm_uframes_t>(period_, sound::kBlockFrames) + kAhead));
-  // Until it runs, it says that there is room only where there is a period of it.
+  // Before it runs, the device reports room only for whole periods.
   const snd_pcm_uframes_t most = (buffer_ - period_) / sound::kBlockFrames + 1;
   const auto started = std::min<snd_pcm_uframes_t>(
       static_cast<snd_pcm_uframes_t>(held_ - sound::kBlockFrames), most * sound::kBlockFrames);
@@ -165,7 +165,7 @@ std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
   if (has + sound::kBlockFrames <= held_ && now_ns >= next_ns_) {
     return std::max<snd_pcm_sframes_t>(waiting, 0);
   }
-  // Woken for something else, or its buffer is much larger, or it has no clock.
+  // poll() was woken by something else, the buffer is much larger, or the device has no clock.
   sleep_until_ns(now_ns + kMillisecond_ns);
   return std::nullopt;
 }
@@ -173,14 +173,14 @@ std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
 int SoundTransport::Pcm::write(const uint8_t* block) noexcept {
   const snd_pcm_sframes_t written = snd_pcm_writei(handle_, block, sound::kBlockFrames);
   if (written < 0) return static_cast<int>(written);
-  // What takes sound as fast as it comes, a file, gets it at the pace of a card; no clock of a card
-  // is wrong by 2 %.
+  // A file takes sound as fast as it comes, so blocks keep the pace of a card; no card's clock is
+  // wrong by 2 %.
   next_ns_ = std::max(next_ns_, monotonic_now_ns() - held_ns()) + kBlock_ns * 49 / 50;
   return 0;
 }
 
 bool SoundTransport::Pcm::recover(int error) noexcept {
-  // While a computer that was suspended wakes up, ALSA itself would wait for that, however long.
+  // While a suspended computer wakes up, ALSA itself would wait for the card without a limit.
   if (error == -ESTRPIPE && snd_pcm_resume(handle_) == -EAGAIN) return true;
   return snd_pcm_recover(handle_, error, 1) >= 0;
 }
@@ -243,8 +243,8 @@ Transfer SoundTransport::transfer(std::initializer_list<ByteView> packets, Mutab
   return {LinkFault::kNone, length};
 }
 
-/// Each wake-up is a little late, which the card's answer contains; the mean is what the loop can
-/// count on.
+/// Each wake-up is a little late, and the card's answer contains that; the loop can count on the
+/// mean.
 void SoundTransport::set_lag(int64_t lag_ns) noexcept {
   constexpr int kAveraged = 16;
   lag_ns_ = lag_ns_ == 0 ? lag_ns : lag_ns_ + (lag_ns - lag_ns_) / kAveraged;
@@ -266,21 +266,21 @@ void SoundTransport::play() noexcept {
     if (!before) continue;
     int error = static_cast<int>(std::min<snd_pcm_sframes_t>(*before, 0));
     if (error == 0) {
-      fed_.try_load(fed);  // keeps the previous one while a new one is being written
+      fed_.try_load(fed);  // keeps the previous levels while new ones are being written
       const bool fresh = !stop_ && now_ns - fed.at_ns < sound::kSilence_ms * kMillisecond_ns;
       const std::optional<int> half_way = carrier.write(
           fresh ? fed.levels : sound::Levels(), pcm_->channels(), pcm_->bytes(), block.data());
       error = pcm_->write(block.data());
       if (error == 0) {
-        // A level waits for its block for half of that in the mean.
+        // On average, a level waits half a block for its block.
         if (half_way && pcm_->is_running()) set_lag(ns_of(*before + *half_way) + kBlock_ns / 2);
         written_ns = now_ns;
         fault_ = LinkFault::kNone;
         continue;
       }
     }
-    // An underrun, or a suspended computer: it goes on from silence, and never at once, because
-    // what fails may fail again. Everything else does not go on.
+    // After an underrun or a suspended computer the sound continues from silence, never at once,
+    // because the failed call may fail again. After every other error it does not continue.
     carrier = sound::Carrier(settings_.carrier_Hz);
     if (error == -EPIPE) ++underruns_;
     if (!pcm_->recover(error) || idle_ns > kHopeless_ms * kMillisecond_ns) {

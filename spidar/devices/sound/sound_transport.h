@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Plays levels on a sound card of ALSA.
 #pragma once
 
 #include <atomic>
@@ -15,20 +14,21 @@
 
 namespace spidar {
 
-/// A packet is sound::Levels, its answer sound::State. Exchanges do not wait; a thread writes the
-/// sound. It plays silence when no packet has come for sound::kSilence_ms. The card holds at most
-/// its period, which it takes at once, and kAhead_ms. It stops when it has played them, also when
-/// this process is stopped or killed.
+/// Plays levels on a sound card of ALSA. A packet is sound::Levels, its answer sound::State.
+/// Exchanges do not wait, because a thread writes the sound. The thread plays silence when no
+/// packet has come for sound::kSilence_ms. The card holds at most its period, which it takes at
+/// once, and kAhead_ms. The card stops when it has played them, also when this process is stopped
+/// or killed.
 ///
 /// Only the card itself is opened, never a server that may choose other speakers.
 class SoundTransport final : public Transport {
  public:
-  /// The thread is woken for each block, and may be late by another one.
+  /// The thread wakes for each block, and may be late by another one.
   static constexpr int kAhead_ms = 2 * sound::kBlock_ms;
-  /// The buffer of a card that can take sound in short periods.
+  /// The buffer of a card that accepts short periods.
   static constexpr int kBuffer_ms = kAhead_ms + sound::kBlock_ms;
   /// A card counts as standing still when it takes nothing for this time beyond the playing time of
-  /// what it holds.
+  /// its buffer.
   static constexpr int kPatience_ms = 100;
   /// A card that takes nothing for this time is opened again.
   static constexpr int kHopeless_ms = 1000;

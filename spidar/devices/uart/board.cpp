@@ -45,7 +45,7 @@ void Uart::find_stations(Transport& line, int64_t patience_ns) {
     stations_.push_back(station);
   }
   for (size_t i = before; i < stations_.size(); ++i) {
-    // The zeros let the board see the end of its packet.
+    // The zeros let the board recognise the end of its packet.
     constexpr std::array<uint8_t, 5> kZeros{};
     std::array<uint8_t, uart_motor::kSetLengthsLength> lengths{};
     uart_motor::encode_lengths(stations_[i].id, stations_[i].info, lengths);
@@ -62,7 +62,7 @@ void Uart::find_all(int64_t patience_ns) {
   }
 }
 
-/// Behind the same adapter there may be other boards now.
+/// Other boards may now be behind the same adapter.
 void Uart::require_same_stations() {
   if (first_description_.empty()) first_description_ = description();
   if (description() == first_description_) return;
@@ -74,7 +74,7 @@ void Uart::require_same_stations() {
 
 void Uart::open() {
   for (const auto& line : lines_) line->open();
-  // On a busy computer an answer may be missed.
+  // On a busy computer the host may miss an answer.
   for (const int64_t patience_ns : {kEnquiry_ns, 5 * kEnquiry_ns}) {
     find_all(patience_ns);
     if (motors_ >= strings_) break;
@@ -114,8 +114,8 @@ LinkFault Uart::exchange(const Station& station, const MotorVolts& volts,
   return right ? LinkFault::kNone : LinkFault::kWrongReply;
 }
 
-/// Every board gets its command, whether or not earlier ones failed. Returns the first fault, or
-/// kGone if any board is gone.
+/// Sends every board its command, whether or not earlier commands failed. Returns the first fault,
+/// or kGone if any board is gone.
 LinkFault Uart::exchange_all(const MotorVolts& volts, std::array<uint32_t, kMaxStrings>& raw,
                              int64_t deadline_ns) noexcept {
   LinkFault worst = LinkFault::kNone;
@@ -161,7 +161,8 @@ std::vector<LastWill> Uart::last_wills() const {
     for (const Station& station : stations_) {
       if (station.line != line.get()) continue;
       auto& packet = will->packet[will->packets];
-      // If the host stopped within a packet, the board is still waiting for the rest of it.
+      // If the host stopped within a packet, the board is still waiting for the rest of that
+      // packet.
       const size_t before = will->packets == 0 ? uart_motor::kZerosBefore : 0;
       const size_t length = uart_motor::encode_current(
           station.id, station.info, {}, {packet.data() + before, packet.size() - before});
@@ -184,7 +185,6 @@ boards::AnyBoard attach_uart(const std::string& name, const Profile& profile,
   return std::make_unique<boards::Uart>(name, profile, std::move(lines));
 }
 
-/// `paths` are separated by commas.
 boards::AnyBoard make_uart(const std::string& name, const std::string& paths,
                            const Profile& profile) {
   std::vector<std::unique_ptr<Transport>> lines;
@@ -201,7 +201,7 @@ boards::AnyBoard make_uart(const std::string& name, const std::string& paths,
   return std::make_unique<boards::Uart>(name, profile, std::move(lines));
 }
 
-/// Two boards of four motors, like the published pair of a SPIDAR-G.
+/// Emulates two boards of four motors, like the published pair of a SPIDAR-G.
 std::unique_ptr<emulated::Board> emulate_uart(std::shared_ptr<emulated::Motors> motors) {
   constexpr uart_motor::BoardInfo kB3M{5, 1, 4, 4, 0, 0};
   return std::make_unique<emulated::Uart>(

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// UART motor boards on one or several lines that form one SPIDAR.
 #pragma once
 
 #include <array>
@@ -15,7 +14,8 @@
 
 namespace spidar::boards {
 
-/// Strings are numbered by line, then by board number, then by motor.
+/// UART motor boards on one or several lines that form one SPIDAR. Strings are numbered by line,
+/// then by board number, then by motor.
 class Uart final : public Board {
  public:
   static constexpr Traits kTraits{.dac_bits = uart_motor::kDacBits,
@@ -39,10 +39,9 @@ class Uart final : public Board {
     Transport* line = nullptr;
     int id = 0;
     uart_motor::BoardInfo info;
-    size_t first = 0;  ///< number of the string of its first motor
+    size_t first = 0;  ///< the string of the first motor
   };
 
-  /// Waits for each board for up to `patience_ns`.
   void find_stations(Transport& line, int64_t patience_ns);
   void find_all(int64_t patience_ns);
   void require_same_stations();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The emulated UART motor boards.
 #pragma once
 
 #include <array>
@@ -11,7 +10,8 @@
 
 namespace spidar::emulated {
 
-/// Takes the bytes of the line in pieces of any size, as the interrupts of the boards do.
+/// The emulated UART motor boards. They take the bytes of the line in pieces of any size, as the
+/// interrupts of the real boards do.
 class Uart final : public Board {
  public:
   struct Station {
@@ -33,7 +33,6 @@ class Uart final : public Board {
 
   const std::vector<Station> stations_;
   std::array<int, kMaxStrings> digits_{};
-  // The command that is being received.
   const Station* station_ = nullptr;
   size_t first_ = 0;  ///< first motor of the station
   std::array<uint8_t, 256> command_{};

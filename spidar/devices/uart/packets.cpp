@@ -9,8 +9,8 @@ namespace spidar::uart_motor {
 std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept {
   const size_t n = 2 * motors;  // bytes of one number per motor
   const size_t jacobian = forces * n;
-  // Numbers 0 … 11: none, info, lengths, all, sensor, direct, current, interpolate, force control,
-  // set parameter, reset sensor, get parameter.
+  // The lengths of commands 0 … 11: none, info, lengths, all, sensor, direct, current, interpolate,
+  // force control, set parameter, reset sensor, get parameter.
   const std::array<size_t, kCommands> length{
       1,
       1,
@@ -21,9 +21,8 @@ std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noe
       1 + n,
       4 + n,
       4 + n + jacobian,
-      2 + std::max<size_t>(2 * n, 8),  // the longest parameter:
-                                       // two per motor, or two
-                                       // baud rates
+      // The longest parameter has two numbers per motor, or two baud rates.
+      2 + std::max<size_t>(2 * n, 8),
       3,
       2,
   };

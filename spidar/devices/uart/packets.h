@@ -3,7 +3,7 @@
 /// Packets of the UART motor boards: 2 Mbaud, 8N1, up to eight boards on a half-duplex bus.
 ///
 /// Sources: Springhead/Springhead core/src/HumanInterface/DRUartMotorDriver* and its
-/// PIC/commandTemplate.h; haselab-net/StuffedV3 PIC/. Pure: bytes in, bytes out.
+/// PIC/commandTemplate.h; haselab-net/StuffedV3 PIC/. The functions only convert bytes.
 #pragma once
 
 #include <array>
@@ -48,9 +48,10 @@ constexpr uint8_t header(int board, Command command) noexcept {
   return static_cast<uint8_t>((board & 7) | static_cast<int>(command) << 3);
 }
 
-/// Zeros before an enquiry, so that a board within a packet reaches its end.
+/// The number of zeros before an enquiry, with which a board that is within a packet reaches the
+/// packet's end.
 constexpr size_t kZerosBefore = 40;
-/// Zeros after it, which give the board the time to reply.
+/// The number of zeros after an enquiry, during which the board replies.
 constexpr size_t kZerosAfter = 26;
 constexpr size_t kEnquiryLength = kZerosBefore + 1 + kZerosAfter;
 constexpr size_t kInfoLength = 7;
@@ -62,7 +63,7 @@ constexpr size_t current_command_length(size_t motors) noexcept {
 constexpr size_t current_reply_length(size_t motors, size_t forces) noexcept {
   return 1 + 4 * motors + 2 * forces;
 }
-/// Includes the zeros that give the time to reply.
+/// Counts the zeros during which the board replies.
 constexpr size_t current_cycle_length(size_t motors, size_t forces) noexcept {
   const size_t command = current_command_length(motors);
   const size_t reply = current_reply_length(motors, forces);
@@ -76,26 +77,25 @@ constexpr size_t kMaxReplyLength = current_reply_length(kMaxMotors, kMaxMotors);
 std::array<uint8_t, kCommands> command_lengths(size_t motors, size_t forces) noexcept;
 
 void encode_enquiry(int board, std::array<uint8_t, kEnquiryLength>& packet) noexcept;
-/// Returns false when it is not the reply of that board, or its content is invalid.
+/// Returns false unless the reply is that board's and its content is valid.
 bool decode_info(ByteView reply, int board, BoardInfo& info) noexcept;
 void encode_info(const BoardInfo& info, int board,
                  std::array<uint8_t, kInfoLength>& reply) noexcept;
 
-/// Tells every board the lengths of the others' packets, so that it can skip them.
+/// Encodes the lengths of the other boards' packets, which a board needs to skip them.
 void encode_lengths(int board, const BoardInfo& info,
                     std::array<uint8_t, kSetLengthsLength>& packet) noexcept;
 
-/// One servo cycle of one board. Digits are clamped to ±kMaxDigit. Returns the length, 0 when
-/// `packet` is too small or the board has too many motors.
+/// Encodes one servo cycle of one board. Digits are clamped to ±kMaxDigit. Returns the length, or 0
+/// when `packet` is too small or the board has too many motors.
 size_t encode_current(int board, const BoardInfo& info, const std::array<int, kMaxMotors>& digits,
                       MutableBytes packet) noexcept;
-/// Returns false when `command` is not the CURRENT command of that board.
 bool decode_current(ByteView command, int board, const BoardInfo& info,
                     std::array<int, kMaxMotors>& digits) noexcept;
 
-/// Returns false when it is not that board's reply, or has another length.
+/// Returns false unless the reply is that board's and has its length.
 bool decode_reading(ByteView reply, int board, const BoardInfo& info, Reading& reading) noexcept;
-/// Returns the length, 0 when `reply` is too small.
+/// Returns the length, or 0 when `reply` is too small.
 size_t encode_reading(const Reading& reading, int board, const BoardInfo& info,
                       MutableBytes reply) noexcept;
 

@@ -4,5 +4,5 @@
 /// Marks what libgst-spidar exports; everything else in it is hidden.
 #pragma once
 
-/// Put before a class or function that programs link; it has no effect on them.
+/// Exports a class or function of the library; has no effect on programs that link it.
 #define GST_SPIDAR_API __attribute__((visibility("default")))

@@ -18,7 +18,8 @@ inline namespace v0 {
 enum class Controller {
   kLinear,     ///< proportional to the speed; the largest speed so far is the largest force
   kNonlinear,  ///< an arc tangent of the speed
-  kAdaptive,   ///< the same, following the scene; no force below the noise of the measurement
+  /// An arc tangent that adapts to the scene; no force below the noise of the measurement.
+  kAdaptive,
 };
 
 /// Which motion is felt: the element's property `motion`.
@@ -37,16 +38,16 @@ struct MotionSettings {
   /// How quickly force rises with speed, except with kLinear: half of the largest force is reached
   /// at 1 / `alpha_s_px` px/s in a picture of 480 rows. Finite and not negative.
   double alpha_s_px = 0.0025;
-  /// Where kObjects is felt most, as a fraction of the picture's width: 0 is its left edge, 1 its
+  /// Where kObjects is felt most, as a fraction of the picture's width: 0 is the left edge, 1 the
   /// right one. Finite.
   double pointer_x = 0.5;
-  /// The same, as a fraction of the height: 0 is the top of the picture, 1 its bottom.
+  /// Where kObjects is felt most, as a fraction of the height: 0 is the top, 1 the bottom.
   double pointer_y = 0.5;
   /// How strongly growth is rendered as force towards the viewer. With 1, growth counts as the
   /// speed that it causes at half the picture's height from its centre; 0 turns it off. Finite, not
   /// negative.
   double depth_gain = 1;
-  /// How strongly roll is rendered as torque about the view axis, in the same way.
+  /// How strongly roll is rendered as torque about the view axis, in the same way as `depth_gain`.
   double roll_gain = 1;
 };
 
@@ -58,34 +59,34 @@ struct MotionResult {
   double growth_1_s = 0;       ///< relative change of lengths a second; positive comes nearer
   double roll_rad_s = 0;       ///< clockwise as seen
   bool has_picture_before =
-      false;  ///< false: nothing to compare with, and everything above is zero
+      false;  ///< false when there is no picture to compare with; then everything above is zero
 };
 
-/// Measures the motion of a picture and computes its wrench, with the defaults of the GStreamer
-/// element. All functions are for any thread: the library makes one call after another. Moving and
-/// destroying the object are not. After fork(), the child must make an object of its own: analyze()
-/// and configure() of a copy throw std::runtime_error.
+/// Measures the motion of a picture and computes the wrench, with the defaults of the GStreamer
+/// element. Every function may be called in any thread: the library runs one call after another.
+/// Only moving and destroying the object need it for themselves. After fork(), the child must make
+/// an object of its own: analyze() and configure() of the copy throw std::runtime_error.
 class GST_SPIDAR_API MotionToWrench {
  public:
   /// Starts with the defaults of MotionSettings.
   MotionToWrench();
   ~MotionToWrench();
-  /// `other` may only be destroyed or assigned to afterwards.
+  /// Afterwards, `other` may only be destroyed or assigned to.
   MotionToWrench(MotionToWrench&& other) noexcept;
-  /// `other` may only be destroyed or assigned to afterwards.
+  /// Afterwards, `other` may only be destroyed or assigned to.
   MotionToWrench& operator=(MotionToWrench&& other) noexcept;
 
-  /// Analyses the next picture, shown at `time` on a clock of the caller's. A time that is not
-  /// after the previous one, and a cut, start anew: the wrench is zero. Throws
-  /// std::invalid_argument for a picture without data, smaller than 16 × 16, or with rows that
-  /// overlap.
+  /// Analyses the next picture, shown at `time` on a clock of the caller's. The analysis starts
+  /// anew, with a wrench of zero, at a cut and when the time is not after the previous one. Throws
+  /// std::invalid_argument for a picture without data, a picture smaller than 16 × 16, and rows
+  /// that overlap.
   MotionResult analyze(const GreyPicture& picture, std::chrono::nanoseconds time);
 
-  /// To be called after a seek: the next picture has nothing to do with the previous one.
+  /// Call this after a seek: the next picture has nothing to do with the previous one.
   void reset();
 
-  /// Changes the settings from the next picture on. Throws std::invalid_argument, and changes
-  /// nothing, when one of the settings is out of range.
+  /// Changes the settings from the next picture on. Throws std::invalid_argument and changes
+  /// nothing when one of the settings is out of range.
   void configure(const MotionSettings& settings);
 
  private:

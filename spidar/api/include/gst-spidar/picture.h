@@ -10,8 +10,8 @@
 namespace gst_spidar {
 inline namespace v0 {
 
-/// A grey picture: `height` rows of `width` bytes, 0 black and 255 white. It refers to memory of
-/// the caller, which is only read, and only during the call that it is passed to.
+/// A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The caller owns the
+/// memory; a call only reads it, and only until the call returns.
 struct GreyPicture {
   const std::uint8_t* data = nullptr;  ///< first pixel of the top row
   int width = 0;                       ///< px, at least 16
