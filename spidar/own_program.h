@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The program that runs.
 #pragma once
 
 #include <sys/auxv.h>
@@ -8,8 +7,8 @@
 
 namespace spidar {
 
-/// A path to its file: where there is no /proc, as in a plain chroot, the one by which it was
-/// started.
+/// The path of the running program's file; where there is no /proc, as in a plain chroot, the path
+/// that started the program.
 inline const char* own_program() noexcept {
   constexpr const char* kByKernel = "/proc/self/exe";
   const bool has_proc = access(kByKernel, F_OK) == 0;

@@ -18,20 +18,20 @@ std::string as_text(const T& value) {
   return out.str();
 }
 
-/// As std::printf() writes it.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 
-/// The text with a question mark for each control character, which a terminal would obey, for each
-/// character that reverses the direction of writing, and for each byte that is not UTF-8, which
-/// neither JSON nor GStreamer takes. To be used where a name, a serial number or the like comes
-/// from a device.
+/// Returns the text with a question mark for each control character, which a terminal would obey,
+/// for each character that reverses the direction of writing, and for each byte that is not UTF-8,
+/// which neither JSON nor GStreamer takes. Use this for names, serial numbers and the like that
+/// come from a device.
 std::string printable(std::string_view text);
 
-/// "; did you mean max-force?" for a word that is nearly one of `known`; else empty.
+/// Returns "; did you mean max-force?" for a word that is nearly one of `known`; else an empty
+/// text.
 std::string meant(const std::string& word, const std::vector<std::string>& known);
 
 /// The number from 1 to `largest` in an `option` "NAME=NUMBER", where `name` is "NAME="; 0 if
-/// `option` is something else.
+/// `option` has another form.
 inline int option_value(const std::string& option, const std::string& name, int largest) {
   if (option.compare(0, name.size(), name) != 0) return 0;
   const std::string digits = option.substr(name.size());

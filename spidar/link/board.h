@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Interfaces of the types of boards: their protocols over a transport, without threads.
+/// The interfaces of boards: their protocols over a transport, without threads.
 #pragma once
 
 #include <array>
@@ -25,21 +25,21 @@ namespace spidar::boards {
 /// When the counts are set to zero at the present position of the grip.
 enum class CountZero {
   kByProfile,  ///< kNever for a profile with home offsets, otherwise kFirstOpen
-  kFirstOpen,  ///< not when a lost board is reopened
+  kFirstOpen,  ///< at the first opening, not when a lost board is reopened
   kNever,      ///< keeps the board's counts, to which calibrated home offsets refer
 };
 
 struct Settings {
   CountZero count_zero = CountZero::kByProfile;
-  /// A separate process zeroes the motors when this one is killed.
+  /// A separate process sets the motors to zero when this one is killed.
   bool guardian = true;
   /// A separate thread makes the exchanges. Without it, exchange() blocks until the board has
   /// answered.
   bool threaded = true;
 };
 
-/// A board that puts out an `Output` and reads a `Reading`. These functions are what a driver
-/// writes. One thread at a time.
+/// A board that takes an `Output` and returns a `Reading`. A driver implements these functions. One
+/// thread at a time.
 template <typename OutputType, typename ReadingType>
 class BoardOf {
  public:
@@ -54,30 +54,30 @@ class BoardOf {
   /// DeviceError; the caller then calls close(). May be called again after close().
   virtual void open() = 0;
 
-  /// One exchange; gives up at the deadline (CLOCK_MONOTONIC). `reading` is written only if the
-  /// result is kNone.
+  /// Performs one exchange; gives up at the deadline (CLOCK_MONOTONIC). Writes `reading` only if
+  /// the result is kNone.
   virtual LinkFault cycle(const Output& output, Reading& reading, int64_t deadline_ns) noexcept = 0;
 
-  /// To be called after a fault, before the next cycle. May block for some milliseconds.
+  /// Call this after a fault, before the next cycle. May block for some milliseconds.
   virtual void recover() noexcept = 0;
 
-  /// Releases the board; leaves the motors at their last value. Safe to call twice.
+  /// Releases the board and leaves the motors at their last value. May be called twice.
   virtual void close() noexcept = 0;
 
-  /// Packets that set the motors to zero when this process can no longer do it, one set for each
-  /// connection. To be called after open().
+  /// Returns packets that set the motors to zero when this process can no longer do so, one set for
+  /// each connection. Call this after open().
   virtual std::vector<LastWill> last_wills() const = 0;
 
-  /// What open() found, for the user: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
+  /// Describes for the user what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".
   virtual std::string description() const = 0;
 
   const std::string& name() const noexcept { return name_; }
 
-  /// Position of the rotary ID switch; −1 if the board has none. To be called after open().
+  /// The position of the rotary ID switch; −1 if the board has none. Call this after open().
   int rotary() const noexcept { return rotary_; }
 
-  /// The guardian has failed or has zeroed the motors, and close() follows, most likely with
-  /// another open(): the board is not to be left in the state that other programs expect.
+  /// The guardian has failed or has set the motors to zero, and close() follows, most likely with
+  /// another open(): the board must not return to the state that other programs expect.
   void expect_reopening() noexcept { reopening_ = true; }
 
  protected:
@@ -86,7 +86,7 @@ class BoardOf {
   bool reopening_ = false;
 };
 
-/// Motors and encoders: puts out volts, reads counts.
+/// Motors and encoders: takes volts, returns counts.
 class Board : public BoardOf<MotorVolts, DeviceReading> {
  public:
   Board(std::string name, int counter_bits) : BoardOf(std::move(name)), counts_(counter_bits) {}
@@ -106,7 +106,7 @@ class Board : public BoardOf<MotorVolts, DeviceReading> {
 
 struct ForceOutput {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the hand, device frame
-  bool on = false;  ///< forces are switched on, even if there is none at present
+  bool on = false;  ///< forces are switched on, even if the force is zero at present
 };
 
 inline bool pulls(const ForceOutput& output) noexcept {
@@ -120,14 +120,15 @@ inline ForceOutput scaled(ForceOutput output, double fraction) noexcept {
 
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
-  PoseFault pose_fault = PoseFault::kNoReading;  ///< why the position is not a number, if it is not
+  /// Why the position is not a number; kNone if it is.
+  PoseFault pose_fault = PoseFault::kNoReading;
   uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
-  int64_t lag_ns = 0;    ///< from the command of a force to its effect, as the device reports it
+  int64_t lag_ns = 0;    ///< from a command to the force, as the device reports it
   int64_t read_ns = 0;   ///< as in DeviceReading
 };
 
-/// A board that exerts forces. It shortens a force that it cannot give; one that is not a number
-/// counts as zero.
+/// A board that exerts forces. The board reduces a force that exceeds its range; a force that is
+/// not a number counts as zero.
 class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
  public:
   using BoardOf::BoardOf;
@@ -137,7 +138,6 @@ class ForceBoard : public BoardOf<ForceOutput, ForceReading> {
   virtual std::string warning() const { return {}; }
 };
 
-/// A board of either type.
 using AnyBoard = std::variant<std::unique_ptr<Board>, std::unique_ptr<ForceBoard>>;
 
 }  // namespace spidar::boards

@@ -21,7 +21,6 @@
 
 namespace spidar::boards {
 
-/// The common part of all boards with a single transport.
 template <typename BoardType>
 class OnTransport : public BoardType {
  public:
@@ -50,7 +49,8 @@ inline std::vector<LastWill> wills(const Transport& transport,
   return {*will};
 }
 
-/// Deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: 0.1 s from now.
+/// Returns the deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: 0.1 s
+/// from now.
 inline int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
 }
@@ -64,8 +64,8 @@ inline DeviceError no_answer(const std::string& board, LinkFault fault,
       fault == LinkFault::kGone ? DeviceErrorCode::kAbsent : DeviceErrorCode::kFailed, location);
 }
 
-/// Tries the first exchange up to three times, because it may first receive data that an earlier
-/// program left unread.
+/// Tries the first exchange up to three times, because the first answers may be data that an
+/// earlier program left unread.
 template <typename Exchange>
 LinkFault open_exchange(const Exchange& exchange, Transport& transport) {
   LinkFault fault = LinkFault::kNone;
@@ -93,12 +93,12 @@ struct DacScale {
   double volt(int digits) const noexcept { return digits / digits_per_V; }
 };
 
-/// The properties that a protocol defines for every board of its kind.
+/// The properties of every board with this protocol.
 struct Traits {
   int dac_bits = 12;
-  double max_V = 0;         ///< largest voltage of the D/A; 0: not published, the profile states it
+  double max_V = 0;         ///< the largest voltage; 0: not published, the profile states it
   double digits_per_V = 0;  ///< 0: the largest digit is the largest voltage
-  bool negative = false;    ///< whether it puts out negative volts
+  bool negative = false;    ///< whether the D/A converter has negative volts
   int counter_bits = 16;    ///< of the encoders
 
   DacScale dac(const Profile& profile) const noexcept {
@@ -109,14 +109,13 @@ struct Traits {
   }
 };
 
-/// Why the profile cannot be for this board, as the end of a sentence that names the field: "has
-/// dac_bits = 16, …". Empty if it fits.
+/// Returns why the profile cannot be for this board, as the end of a sentence that names the field:
+/// "has dac_bits = 16, …". Empty if the profile fits.
 std::string misfit(const Profile& profile, const Traits& board);
 
-/// Throws DeviceError with misfit().
 void require_fitting(const std::string& device, const Profile& profile, const Traits& board);
 
-/// A board that takes a digit for the motor of each string and answers with its counter.
+/// A board that takes a digit for the motor of each string and answers with the string's counter.
 class StringBoard : public OnTransport<Board> {
  public:
   /// Throws DeviceError when the profile describes another board, see require_fitting().
@@ -131,14 +130,13 @@ class StringBoard : public OnTransport<Board> {
  protected:
   using Digits = std::array<int, kMaxStrings>;
   struct Answer {
-    std::array<uint32_t, kMaxStrings> counter{};  ///< only the bits that the board has
+    std::array<uint32_t, kMaxStrings> counter{};  ///< only the bits that the board's counters have
     uint32_t inputs = 0;
     int rotary = -1;  ///< position of the ID switch; −1: none
   };
 
   virtual LinkFault exchange(const Digits& digits, Answer& answer,
                              int64_t deadline_ns) noexcept = 0;
-  /// The packet that sets all motors to zero.
   virtual std::vector<uint8_t> zero_packet() const = 0;
   /// Called before the first exchange after opening.
   virtual LinkFault reset(int64_t) noexcept { return LinkFault::kNone; }

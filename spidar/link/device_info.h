@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is known of a device before it is opened.
 #pragma once
 
 #include <string>
 
 namespace spidar {
 
-/// A device that make_grip() can open.
+/// What is known about a device before it is opened, with which make_grip() can open it.
 struct DeviceInfo {
   std::string device;                 ///< for make_grip(): "usb:1-2", "sim"
   std::string name;                   ///< "CyVerse USB 2.0 SH4"
   std::string path;                   ///< on the bus: "1-2"; empty for simulated devices
-  std::string serial;                 ///< empty when it has none
+  std::string serial;                 ///< empty when the device has none
   std::string usb_id;                 ///< "0cec:0205"; empty when not on USB
   const char* evidence = "emulated";  ///< DeviceKind::evidence
   std::string note;        ///< what is inferred, or why the device cannot be used; may be empty
-  bool accessible = true;  ///< this process may open it
-  /// The profile with which it is driven if none is named: that of a simulation, that of a device
-  /// without strings, or the one that was confirmed for this board. Empty: none, so its motors get
-  /// no force until one is named (see profile_choice.h).
+  bool accessible = true;  ///< this process may open the device
+  /// The profile that drives the device if the user names none: that of a simulation, that of a
+  /// device without strings, or the one that was confirmed for this board. Empty: none, so the
+  /// motors of the board get no force until the user names a profile (see profile_choice.h).
   std::string profile;
   std::string memory_error;  ///< why confirmed profiles cannot be read; may be empty
-  /// Profile::board of profiles that are for it: "usb-sh4"; empty when that is not known, or it has
-  /// no strings.
+  /// Profile::board of fitting profiles: "usb-sh4"; empty when unknown, or when the device has no
+  /// strings.
   std::string profile_board;
-  bool has_strings = true;  ///< otherwise it takes a force, and has no encoders
-  bool directional = true;  ///< otherwise only the strength of the force is rendered
+  bool has_strings = true;  ///< otherwise the device takes a force, and has no encoders
+  bool directional = true;  ///< otherwise the device renders only the strength of the force
 };
 
 /// DeviceInfo::note of a device that 70-spidar.rules would make accessible.

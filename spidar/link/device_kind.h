@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The description of a kind of device, from which its names, lists, errors, simulation and tests
-/// are made.
+/// The description of a kind of device, from which the project makes its names, lists, errors,
+/// simulation and tests.
 #pragma once
 
 #include <memory>
@@ -20,45 +20,47 @@
 namespace spidar {
 
 struct DeviceKind {
-  const char* device = "";  ///< what its name for make_grip() begins with: "usb"
-  const char* board = "";   ///< "sh4", for sim:sh4; `device` again where that has one board only
-  const char* title = "";   ///< for people: "CyVerse USB 2.0 SH4"
-  const char* names = "";   ///< how a real one may be named, separated by ", "
-  UsbId usb = {};           ///< vendor 0 for one that is not on USB
-  /// Profile::board of profiles for it; empty for one without strings.
+  const char* device = "";  ///< how its names for make_grip() begin: "usb"
+  /// "sh4", for sim:sh4; the same as `device` where that has one board only.
+  const char* board = "";
+  const char* title = "";  ///< for people: "CyVerse USB 2.0 SH4"
+  const char* names = "";  ///< the possible names of a real device, separated by ", "
+  UsbId usb = {};          ///< vendor 0 for a device that is not on USB
+  /// Profile::board of fitting profiles; empty for a device without strings.
   const char* profile_board = "";
-  /// The profile with which its simulation is driven if none is named, and the real device, too, if
-  /// it has no strings.
+  /// The profile that drives the simulation if the user names none; also the real device if it has
+  /// no strings.
   const char* profile = kDefaultProfile;
-  boards::Traits traits = {};  ///< of a board with strings; profiles have to fit them
-  /// What device=auto calls a device without strings that it has chosen: "a Novint Falcon". Empty:
-  /// such a device is used only if it is named.
+  boards::Traits traits = {};  ///< of a board with strings; profiles must fit them
+  /// What messages call a device without strings that device=auto has chosen: "a Novint Falcon".
+  /// Empty: device=auto does not choose such a device.
   const char* chosen_as = "";
-  /// How far the driver has been tested: "emulated", on a board that follows the published
-  /// description, or "inferred", if parts of that are inferred, which an emulation cannot confirm.
+  /// How far the driver has been tested: "emulated", on an emulation of the published description,
+  /// or "inferred", if parts of that description are inferred, which an emulation cannot confirm.
   const char* evidence = "emulated";
   const char* note = "";  ///< what is inferred
 
-  /// Makes the board at the other end of a transport. Throws DeviceError when it cannot drive the
-  /// profile.
+  /// Makes the board at the other end of a transport. Throws DeviceError when the board cannot
+  /// drive the profile.
   boards::AnyBoard (*attach)(const std::string& name, const Profile& profile,
                              std::unique_ptr<Transport> transport) = nullptr;
-  /// The emulation of the board, connected to these motors; null when there is none.
+  /// Makes the emulation of the board, connected to these motors; null when there is none.
   std::unique_ptr<emulated::Board> (*emulate)(std::shared_ptr<emulated::Motors> motors) = nullptr;
-  /// Without strings: the hand of the simulation; null when nothing feels what the board puts out.
+  /// Without strings: the simulated hand; null when the simulation has none.
   std::shared_ptr<emulated::Motors> (*hand)() = nullptr;
 
-  // Not for boards on USB.
+  // The functions below are only for devices that are not on USB.
 
-  /// Makes the real board with this whole name; `rest` is what follows its colon. Opens nothing.
+  /// Makes the real board with this whole name; `rest` is the part after the colon. Opens nothing.
   /// Throws DeviceError when `rest` is wrong.
   boards::AnyBoard (*make)(const std::string& name, const std::string& rest,
                            const Profile& profile) = nullptr;
-  /// Lists what is plugged in, as far as the system tells: names, and what the kind does not say.
+  /// Lists the devices that are plugged in, as far as the system tells: names, and what the kind
+  /// does not determine.
   std::vector<DeviceInfo> (*list)() = nullptr;
 
   bool has_strings() const noexcept { return *profile_board != '\0'; }
-  /// Whether the name has to state which one is meant.
+  /// Whether the name must state which device is meant.
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };
 

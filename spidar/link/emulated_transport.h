@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Emulated boards, which answer as described for the real ones, and the transport to
-/// one.
+/// Emulated boards, which answer as their published descriptions say, and the transport to an
+/// emulated board.
 #pragma once
 
 #include <algorithm>
@@ -19,46 +19,47 @@
 
 namespace spidar::emulated {
 
-/// The device that is connected to an emulated board. This one has neither motors nor encoders:
-/// what it gets has no effect.
+/// The device that is connected to an emulated board. This base class has neither motors nor
+/// encoders.
 class Motors {
  public:
   virtual ~Motors() = default;
-  /// The board has set the D/A to these digits.
+  /// Tells that the board has set the D/A converters to these digits.
   virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
-  /// Counts as the host should receive them.
+  /// Returns counts as the host should receive them.
   virtual std::array<int32_t, kMaxStrings> counts() noexcept { return {}; }
-  /// 16 inputs; bits 4–7 are the rotary ID switch.
+  /// Returns 16 inputs; bits 4–7 are the rotary ID switch.
   virtual uint16_t inputs() noexcept { return 0; }
 };
 
-/// What stays in a device while programs come and go. Starts as after plugging in.
+/// The state of a device that remains while programs come and go. Starts as after plugging in.
 struct Memory {
-  std::atomic<bool> loaded{false};  ///< with its firmware
+  std::atomic<bool> loaded{false};  ///< whether the firmware is loaded
   std::atomic<uint16_t> baud{0};    ///< divisor
 };
 
-/// A board without its wire, and the motors to which it is connected. Not thread-safe.
+/// A board without its wire, and the motors that it drives. Not thread-safe.
 class Board {
  public:
   explicit Board(std::shared_ptr<Motors> motors) : motors_(std::move(motors)) {}
   virtual ~Board() = default;
   /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
-  /// Writes the next reply that is due and returns its length; 0 when no reply is due or `reply` is
-  /// too small.
+  /// Writes the next due reply and returns its length; 0 when no reply is due or `bytes` is too
+  /// small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
   /// Starts with the given memory and keeps its state there; the memory must outlive the board.
-  /// Without it, the board is one that was used before.
+  /// Without a memory, the board starts as one that was used before.
   virtual void remember(Memory&) noexcept {}
-  /// Takes a vendor request; returns false if there is no such request.
+  /// Takes a vendor request; returns false if the board does not know the request.
   virtual bool control(const VendorRequest&) noexcept { return false; }
 
  protected:
   std::shared_ptr<Motors> motors_;
 };
 
-/// Writes `packet` if it is due, and returns its length; 0 if it is not, or `bytes` is too small.
+/// Writes `packet` if it is due, and returns its length; 0 if it is not due, or `bytes` is too
+/// small.
 inline size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
   if (!due || bytes.size < packet.size) return 0;
   due = false;
@@ -66,7 +67,7 @@ inline size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept 
   return packet.size;
 }
 
-/// No time passes: a reply is available at once or not at all.
+/// The transport to an emulated board. No time passes: a reply is available at once or not at all.
 class Transport final : public spidar::Transport {
  public:
   /// `fault` is the result of every exchange. With kStall and kGone packets do not arrive; kBabble,
@@ -78,7 +79,7 @@ class Transport final : public spidar::Transport {
 
   void open() override {
     if (*fault_ == LinkFault::kGone) throw DeviceError("emulated board: not plugged in");
-    // As the interface of a real one is claimed until it is closed.
+    // A real interface, too, stays claimed until it is closed.
     if (open_) throw DeviceError("emulated board: in use");
     open_ = true;
   }

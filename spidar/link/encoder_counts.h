@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a board whose counters wrap round. They continue when the board is closed and
+/// Counts of a board whose counters wrap round. The counts continue when the board is closed and
 /// reopened.
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace spidar::boards {
 
-/// Follows up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way
-/// round.
+/// Follows up to kMaxStrings counters of `bits` bits, assuming that each counter takes the shorter
+/// way round.
 class CountUnwrapper {
  public:
   /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
@@ -24,9 +24,9 @@ class CountUnwrapper {
   /// 16 … 31 bits.
   explicit CountUnwrapper(int bits) noexcept : bits_(bits) {}
 
-  /// Converts the board's counter values to counts that continue from the last ones. If those were
-  /// wrong, because a bit flipped on the way, they continue from the ones before. Returns false and
-  /// changes nothing when a counter has moved further than `max_step` from both.
+  /// Converts the board's counter values to counts that continue from the last ones, or from the
+  /// ones before if a flipped bit has spoilt the last ones. Returns false and changes nothing when
+  /// a counter has moved further than `max_step` from both.
   bool update(const std::array<uint32_t, kMaxStrings>& raw, size_t channels,
               int32_t max_step = kMaxStep) noexcept {
     if (distance(raw, last_.raw, channels) > max_step) {
@@ -44,11 +44,11 @@ class CountUnwrapper {
   }
 
   /// Takes the counters after a break in which the board was not read. Returns false and changes
-  /// nothing when a counter has jumped, or when the counters seem to have been reset by a loss of
-  /// power: they are nearer to zero than to their previous values, which were not near zero
-  /// themselves. A grip that a hand moved towards the counters' zero looks the same. Mistaking this
-  /// for a reset costs a new zero; the opposite mistake would keep a wrong zero. Call begin() to
-  /// accept the new values.
+  /// nothing when a counter has jumped, or when a loss of power seems to have reset the counters:
+  /// they are nearer to zero than to their previous values, which were not near zero themselves. A
+  /// grip that a hand moved towards the counters' zero looks the same. Mistaking this for a reset
+  /// costs a new zero; the opposite mistake would keep a wrong zero. Call begin() to accept the new
+  /// values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const int32_t moved = distance(raw, last_.raw, channels);
     const bool anew = moved > kStill && distance(last_.raw, {}, channels) > kStill &&
@@ -56,14 +56,13 @@ class CountUnwrapper {
     return !anew && update(raw, channels);
   }
 
-  /// Takes the counter values, sign extended, as counts; for a first reading.
+  /// Takes the counter values of a first reading, sign extended, as counts.
   void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     last_ = {raw, {}};
     for (size_t i = 0; i < channels; ++i) last_.count[i] = signed_difference(raw[i]);
     before_ = last_;
   }
 
-  /// Makes the present position zero.
   void zero() noexcept {
     last_.count = {};
     before_ = last_;
@@ -77,10 +76,10 @@ class CountUnwrapper {
     std::array<int32_t, kMaxStrings> count{};
   };
 
-  /// 1 mm: a zero that is off by less does no harm, and a grip that nobody moves stays within it.
+  /// 1 mm: a zero that is off by less does no harm, and a grip that nobody moves stays within 1 mm.
   static constexpr int32_t kStill = 64;
 
-  /// By how much the counter differs that differs most.
+  /// Returns the largest difference of a counter.
   int32_t distance(const std::array<uint32_t, kMaxStrings>& from,
                    const std::array<uint32_t, kMaxStrings>& to, size_t channels) const noexcept {
     int32_t most = 0;
@@ -100,7 +99,7 @@ class CountUnwrapper {
 
   int bits_;
   Values last_;
-  Values before_;  ///< of the reading that was taken before the last one
+  Values before_;  ///< of the reading before the last one
 };
 
 class EncoderCounts {
@@ -111,7 +110,6 @@ class EncoderCounts {
 
   explicit EncoderCounts(int bits) noexcept : unwrapper_(bits) {}
 
-  /// Takes the first reading after opening.
   void open(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     first_ = raw;
     channels_ = channels;
@@ -120,8 +118,8 @@ class EncoderCounts {
     restarted_ |= !unwrapper_.resume(raw, channels);
   }
 
-  /// The counters were reset since the board was first open: their values are meaningless until
-  /// zero(), also those that look right later, because a hand has moved the grip.
+  /// Whether the counters were reset since the board was first open. Then their values are
+  /// meaningless until zero(), even those that look right later because a hand has moved the grip.
   bool restarted() const noexcept { return restarted_; }
 
   /// Sets zero to the position of the first reading.
@@ -131,9 +129,9 @@ class EncoderCounts {
     restarted_ = false;
   }
 
-  /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores it if a counter
-  /// changed by more than a hand can cause since the last reading, whether that one was good or
-  /// not: the counters of a board that loses its power for a moment jump, and do not jump back.
+  /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores the reading if a
+  /// counter changed by more than a hand can cause since the last reading, good or not: the
+  /// counters of a board that loses its power for a moment jump, and do not jump back.
   bool update(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {
     const int64_t passed_ms = std::clamp<int64_t>((now_ns - last_ns_) / 1'000'000, 0, 7);
     last_ns_ = now_ns;

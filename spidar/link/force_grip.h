@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The grip of a device that takes a force as it is, and not as tensions of strings.
 #pragma once
 
 #include <array>
@@ -17,8 +16,9 @@
 
 namespace spidar::boards {
 
-/// Sends the force to its board in the axes that it renders, up to what it can give, and
-/// takes the position from it. There is no torque, and no rotation.
+/// The grip of a device that takes a force directly, not as tensions of strings. Sends the force to
+/// the board in the axes that the board renders, up to its range, and takes the position from the
+/// board. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:
   explicit ForceGrip(std::unique_ptr<ForceLink> link)
@@ -45,7 +45,7 @@ class ForceGrip final : public Grip {
       reading_.delivered.force_N = output.force_N;
       update(answer, command);
     } else {
-      // The device may not have received this tick.
+      // The device may not have received the command of this tick.
       trust_.miss(command.now_ns);
       if (!trust_.trusted()) reading_.motion.reset();
     }
@@ -58,8 +58,8 @@ class ForceGrip final : public Grip {
   std::string warning() const override { return link_->board().warning(); }
 
  private:
-  /// A grip that is free in all axes flies when it is let go; a stick does not. Torques are not
-  /// felt, and the lag of the drives is not known.
+  /// A grip that is free in all axes flies when a hand releases it; a stick does not. The device
+  /// renders no torques, and the lag of its drives is unknown.
   static GripTraits traits_of(const GripAbilities& can) noexcept {
     const std::array<bool, 3> all{true, true, true};
     const bool free = can.direction && can.force == all && can.position == all;
@@ -104,8 +104,8 @@ class ForceGrip final : public Grip {
       reading_.motion.reset();
     }
   }
-  /// Jumps of a stick are no faults: it snaps back when it is let go, and its driver seldom
-  /// reports.
+  /// Jumps of a stick are no faults: a stick snaps back when a hand releases it, and its driver
+  /// seldom reports.
   PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double moved_m = (answer.position_m - reading_.pose.position_m).norm();
@@ -113,7 +113,7 @@ class ForceGrip final : public Grip {
                                                                : PoseFault::kNone;
   }
 
-  /// More than a count of the coarsest device: the Falcon's moves its arm by 38 µm.
+  /// More than a count of the coarsest device, the Falcon, which moves the arm by 38 µm.
   static constexpr double kPositionError_m = 50e-6;
 
   const std::unique_ptr<ForceLink> link_;

@@ -115,8 +115,8 @@ void LinkThread<BoardType>::stop() noexcept {
   stop_ = true;
   sem_post(&requested_);
   // Transfers are cancelled at their deadline, and the kernel ends a request to clear a stalled
-  // pipe after 5 s. Meanwhile the guardian, to which this thread no longer answers, sets the motors
-  // to zero.
+  // pipe after 5 s. Meanwhile this thread no longer answers the guardian, which sets the motors to
+  // zero.
   thread_.join();
   Request request;
   Reply reply;
@@ -137,7 +137,7 @@ void LinkThread<BoardType>::run() noexcept {
     Request request;
     if (stop_ || !requests_.pop(request)) continue;
     const Reply reply = answer(request);
-    // The queue has room for one reply more than there can be requests.
+    // The capacity of the queue is one reply more than there can be requests.
     replies_.push(reply);
     sem_post(&replied_);
   }
@@ -170,8 +170,8 @@ typename LinkThread<BoardType>::Reply LinkThread<BoardType>::answer(
   pulling_ |= pulling;
   if (guarded(pulling_)) exchange_now(request, reply);
   if (reply.fault == LinkFault::kNone) pulling_ = pulling;
-  // Checked again, because this output may have gone out after a guardian sent zeros while this
-  // process was stopped.
+  // This check comes after the exchange, too: the output may have gone out after a guardian sent
+  // zeros while this process was stopped.
   if (guarded(pulling_)) return reply;
   unguarded_ = reply.fault = why_unguarded();
   put_out_zero();
@@ -187,7 +187,7 @@ void LinkThread<BoardType>::exchange_now(const Request& request, Reply& reply) n
   if (reply.fault == LinkFault::kNone) {
     const int64_t took_ns = monotonic_now_ns() - begin_ns;
     round_trip_.add(took_ns);
-    // Board and bus take about as long before it is read as after it.
+    // Board and bus take about as long before the reading as after it.
     reply.reading.read_ns = begin_ns + took_ns / 2;
     errors_in_a_row_ = 0;
   } else if (reply.fault != LinkFault::kGone &&
@@ -213,13 +213,13 @@ LinkFault LinkThread<BoardType>::exchange(const Output& output, Reading& reading
   return reply->fault;
 }
 
-/// Hands the request to the thread that exchanges, and waits for its reply, up to kReplyWait_ns.
+/// Hands the request to the thread that exchanges, and waits for the reply, up to kReplyWait_ns.
 /// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
 /// is none, the newest with a fault, or nothing.
 template <typename BoardType>
 std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::ask(
     const Request& request) noexcept {
-  // When the queue is full, the board has not answered for some time, and this output is dropped.
+  // A full queue means that the board has not answered for some time; this output is dropped.
   if (requests_.push(request)) sem_post(&requested_);
   const int64_t until_ns = monotonic_now_ns() + kReplyWait_ns;
   std::optional<Reply> best;
@@ -235,12 +235,12 @@ std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::ask(
 
 template <typename BoardType>
 bool LinkThread<BoardType>::bring_to_zero() noexcept {
-  // What a guardian has set to zero must not be restored.
+  // Outputs that a guardian has set to zero must not come back.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
   for (int left = pulls(from) ? kRamp_ms - 1 : 0; left > 0; --left) {
     const int64_t now_ns = monotonic_now_ns();
-    // If one of several lines is dead, the others must still be ramped down.
+    // If one of several lines is dead, the others must still ramp down.
     board_->cycle(scaled(from, 1.0 * left / kRamp_ms), reading, now_ns + kTransfer_ns);
     if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
   }
@@ -252,7 +252,8 @@ bool LinkThread<BoardType>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
-    // After a counter jump, a strange answer or one too many the board has received the output.
+    // With a counter jump, a strange answer or one answer too many, the board has received the
+    // output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
         fault == LinkFault::kWrongReply || fault == LinkFault::kBabble) {
       return true;

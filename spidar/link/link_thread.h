@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The common part of all open boards: the thread of their link, their guardians, and the ramp to
+/// The common part of all open boards: the thread that exchanges, the guardians, and the ramp to
 /// zero.
 #pragma once
 
@@ -28,10 +28,10 @@ namespace spidar::boards {
 /// A later reply is used in the next tick. Outputs that arrive during an exchange are queued, so
 /// that the link never idles.
 ///
-/// Motors pull only as long as every connection has its guardian. Without one, the motors are set
-/// to zero at once, and the device is lost until it is reopened with a new guardian.
+/// Motors pull only as long as every connection has its guardian. Without a guardian, the motors
+/// are set to zero at once, and the device is lost until it is reopened with a new guardian.
 ///
-/// For the board's `Output` there are the functions pulls(output), which tells whether it differs
+/// The board's `Output` needs two functions: pulls(output), which tells whether the output differs
 /// from rest, and scaled(output, fraction).
 template <typename BoardType>
 class LinkThread final : public DeviceOf<typename BoardType::Output, typename BoardType::Reading> {
@@ -40,15 +40,14 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   using Reading = typename BoardType::Reading;
   /// The longest wait for a reply in a tick of 1 ms; the loop uses the rest.
   static constexpr int64_t kReplyWait_ns = 700'000;
-  /// Time after which an exchange counts as failed.
   static constexpr int64_t kTransfer_ns = 5'000'000;
-  /// Duration of the ramp to zero in close(), in milliseconds, if the outputs are not at zero
-  /// before.
+  /// Duration of the ramp to zero in close(), in milliseconds, if the outputs are not yet zero.
   static constexpr int kRamp_ms = 20;
 
   /// Here, CountZero::kByProfile means kFirstOpen; make_grip() resolves it.
   LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
-  /// Several boards, of which `open` opens and returns one. If it throws, it leaves none open.
+  /// Takes several boards, of which `open` opens and returns one. If `open` throws, it leaves no
+  /// board open.
   LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
              const Settings& settings);
   ~LinkThread() override;
@@ -60,7 +59,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
   LinkHealth health() const noexcept override;
-  /// The board that was opened last; before any was opened, the first.
+  /// The board that was opened last; the first board before any opening.
   const BoardType& board() const noexcept { return *board_; }
 
  private:
@@ -84,7 +83,8 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
   LinkFault why_unguarded() const noexcept;
-  /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
+  /// Both functions return true if the motors have received their zeros; bring_to_zero() uses a
+  /// ramp.
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
 
@@ -92,15 +92,15 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   const std::function<BoardType&()> open_board_;
   BoardType* board_;  ///< the one that was opened last
   const Settings settings_;
-  bool zeroed_ = false;  ///< the counts have been zeroed once
+  bool zeroed_ = false;  ///< whether the counts have been set to zero once
   std::vector<std::unique_ptr<Guardian>> guardians_;
   bool open_ = false;
   Output last_;
   uint32_t number_ = 0;
-  // Used by the thread that exchanges.
+  // Only the thread that exchanges uses these members.
   int errors_in_a_row_ = 0;
   bool pulling_ = false;  ///< the output of the board may differ from zero
-  // Not kNone: a guardian failed, or this process stood still; the motors rest until open().
+  // If not kNone, a guardian failed or this process was suspended; the motors rest until open().
   LinkFault unguarded_ = LinkFault::kNone;
 
   std::thread thread_;
@@ -110,7 +110,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   sem_t requested_{};
   sem_t replied_{};
 
-  // Written by the thread that exchanges, or by whoever calls exchange(): never both at a time.
+  // The thread that exchanges writes this, or the caller of exchange(): never both at a time.
   std::array<std::atomic<uint64_t>, kLinkFaults> faults_{};
   std::atomic<LinkFault> last_fault_{LinkFault::kNone};
   std::atomic<uint64_t> late_{0};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The hand that holds an emulated device which takes a force.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +13,8 @@
 
 namespace spidar::emulated {
 
-/// For motors whose digits are the force in millinewtons and whose counts are the position in
-/// micrometres: to the right, up, towards the viewer.
+/// Takes a force for motors whose digits are the force in millinewtons and whose counts are the
+/// position in micrometres: right, up, towards the viewer.
 inline void put_out_N(Motors& motors, const Eigen::Vector3d& force_N) noexcept {
   std::array<int, kMaxStrings> milli_N{};
   for (size_t i = 0; i < 3; ++i) {
@@ -28,8 +27,8 @@ inline Eigen::Vector3d position_m(Motors& motors) noexcept {
   return 1e-6 * Eigen::Vector3d(at_um[0], at_um[1], at_um[2]);
 }
 
-/// A hand that holds the grip at the centre, as a spring and a damper, and moves with the force, in
-/// the units of put_out_N() and position_m().
+/// The hand that holds an emulated device which takes a force. A spring and a damper hold the grip
+/// at the centre, and the hand moves with the force, in the units of put_out_N() and position_m().
 class SpringHand final : public Motors {
  public:
   explicit SpringHand(uint16_t inputs = 0) noexcept : inputs_(inputs) {}
@@ -66,7 +65,6 @@ class SpringHand final : public Motors {
                   at_m_ = Eigen::Vector3d::Zero();
 };
 
-/// For DeviceKind::hand.
 template <uint16_t inputs>
 std::shared_ptr<Motors> spring_hand() {
   return std::make_shared<SpringHand>(inputs);

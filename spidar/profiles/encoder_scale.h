@@ -33,7 +33,7 @@ class EncoderScale {
     return lengths_m;
   }
 
-  /// The nearest counts; those of strings without an encoder scale are left as they are.
+  /// Sets the nearest counts; leaves those of strings without an encoder scale as they are.
   void to_counts(const StringVector& lengths_m, Counts& counts) const noexcept {
     for (int i = 0; i < count_; ++i) {
       const auto k = static_cast<size_t>(i);
@@ -45,7 +45,7 @@ class EncoderScale {
  private:
   int count_;
   StringVector zero_m_;
-  std::array<double, kMaxStrings> metres_{};  ///< per count, with the encoder's direction
+  std::array<double, kMaxStrings> metres_{};  ///< per count, with the sign of the encoder
 };
 
 }  // namespace spidar

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The description of a device: geometry, motors, encoders, and the source of each number; and
-/// how much force it can give.
+/// The description of a device: geometry, motors, encoders, the source of each number, and the
+/// largest force.
 #pragma once
 
 #include <algorithm>
@@ -20,29 +20,28 @@
 
 namespace spidar {
 
-/// A profile that cannot be used. what() names file, line and field, what was wrong and what would
-/// be right.
+/// A profile cannot be used. what() names file, line and field, what was wrong and what would be
+/// right.
 class ProfileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Profile::board of a profile whose source names no board: it may be any.
+/// Profile::board of a profile whose source names no board: any board may fit.
 constexpr const char* kUnknownBoard = "unknown";
 
-/// Motor, encoder and force range of one string.
 struct StringDrive {
-  double min_tension_N = 0;  ///< keeps the string taut
+  double min_tension_N = 0;  ///< which keeps the string taut
   double max_tension_N = 0;
-  double newtons_per_volt = 0;  ///< > 0; the direction is in motor_sign
-  double metres_per_count = 0;  ///< > 0; the direction is in encoder_sign
+  double newtons_per_volt = 0;  ///< > 0; the sign is in motor_sign
+  double metres_per_count = 0;  ///< > 0; the sign is in encoder_sign
   int motor_sign = 1;           ///< +1: a positive voltage pulls
   int encoder_sign = 1;         ///< +1: the count rises when string is paid out
-  /// Length at zero count minus length with the grip at the centre: 0 when the grip was at the
-  /// centre when the board's counters were cleared. Holds until they are cleared again.
+  /// Length at zero count minus length with the grip at the centre: 0 if the grip was at the centre
+  /// when the board's counters were cleared. Valid until the counters are cleared again.
   double home_offset_m = 0;
-  /// Tension that the motor can give continuously without overheating, N. 0: not stated, half of
-  /// max_tension_N is used.
+  /// The tension that the motor can exert continuously without overheating, N. 0 means that the
+  /// source does not state it; half of max_tension_N is used.
   double continuous_tension_N = 0;
   /// Time constant of the winding's temperature, s.
   double heating_time_s = kHeatingTime_s;
@@ -54,15 +53,14 @@ struct StringDrive {
   }
 };
 
-/// How reliable a number is.
 enum class Evidence {
   kPublished,     ///< read in the source
-  kInferred,      ///< derived or plausible; check on the unit
-  kContradicted,  ///< read in the source, and another source says something else
-  kMeasured,      ///< on this unit, by calibration
+  kInferred,      ///< derived or plausible; check on the device
+  kContradicted,  ///< read in the source, but another source contradicts it
+  kMeasured,      ///< measured on this device, by calibration
 };
 
-/// Where a group of numbers comes from.
+/// The source of a group of numbers.
 struct Provenance {
   std::string field;   ///< e.g. "geometry", "newtons_per_volt"
   std::string source;  ///< e.g. "haselab-net/SpringheadOne src/HIS/HISpidarG6C.cpp"
@@ -77,26 +75,25 @@ struct CalibrationRecord {
 };
 
 struct Profile {
-  /// Assumed if a profile states no lag: no public source states that of a drive.
+  /// The lag of a drive if the profile states none; no public source states one.
   static constexpr double kDriveLag_s = 0.002;
 
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;        ///< controller it was used with, see parse_profile()
+  std::string board;        ///< the controller of the source, see parse_profile()
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
-  int dac_bits = 12;                              ///< resolution of the D/A over dac_max_V
-  double dac_max_V = 10.0;                        ///< D/A range is 0 … this, times motor_sign
-  /// Lag from a command to the tension that follows, s: amplifier, motor and what the board holds
-  /// back.
+  int dac_bits = 12;        ///< resolution of the D/A converters over dac_max_V
+  double dac_max_V = 10.0;  ///< the range is 0 … this, times motor_sign
+  /// Lag from a command to the tension, s: amplifier, motor, and the delay of the board.
   double drive_lag_s = kDriveLag_s;
-  bool drive_lag_known = false;  ///< stated by the file, or that of a simulation
+  bool drive_lag_known = false;  ///< whether the file or a simulation states the lag
   /// Principal moments of inertia of the grip alone; zero: not stated.
   Eigen::Vector3d moment_of_inertia_kg_m2 = Eigen::Vector3d::Zero();
   std::optional<CalibrationRecord> calibration;
   std::vector<Provenance> provenance;
 
-  /// How the grip turns: as stated, or else inferred.
+  /// The inertia of the grip, as stated or else inferred.
   GripBody body() const {
     GripBody body = GripBody::inferred(geometry.grip_radius_m());
     if (moment_of_inertia_kg_m2.isZero(0)) return body;
@@ -127,20 +124,21 @@ struct Profile {
   }
 };
 
-/// `name_or_path`: a name as of list_profiles(), or a path (has a '/' or ends in .toml).
-/// Throws ProfileError.
+/// `name_or_path` is a name of list_profiles(), or a path, which has a '/' or ends in .toml. Throws
+/// ProfileError.
 Profile load_profile(const std::string& name_or_path);
 
-/// Profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH (colon-separated),
-/// then the installed files, then those that are built into the library. Sorted, without ending.
+/// Returns the profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH
+/// (colon-separated), then the installed files, then those that are built into the library. Sorted,
+/// without ending.
 std::vector<std::string> list_profiles();
 
-/// Default profile: the desktop SPIDAR-G most common in public sources.
+/// The desktop SPIDAR-G that is most common in public sources.
 inline constexpr const char* kDefaultProfile = "spidar-gcc";
 
-/// How far the sum of `count` pulls, each from none to full, reaches in its weakest direction. The
-/// reachable set is a sum of segments, whose nearest face is parallel to two of them. −1 if all
-/// pulls lie in one line.
+/// Returns how far the sum of `count` pulls, each from none to full, reaches in its weakest
+/// direction. The reachable set is a sum of segments, whose nearest face is parallel to two of
+/// them. −1 if all pulls lie in one line.
 inline double least_reach(const Eigen::Matrix<double, 3, kMaxStrings>& pulls, int count) {
   double least = -1;
   for (int i = 0; i < count; ++i) {
@@ -157,7 +155,7 @@ inline double least_reach(const Eigen::Matrix<double, 3, kMaxStrings>& pulls, in
   return least;
 }
 
-/// The upper bound of a force limit: the force that the strings can give at the centre in every
+/// The upper bound of a force limit: the force that the strings can exert at the centre in every
 /// direction, and no less than kDefaultForce_N.
 inline double largest_force_N(const Profile& profile) {
   return std::max(kDefaultForce_N, least_reach(structure_matrix(profile.geometry, {}).topRows<3>() *
@@ -165,8 +163,8 @@ inline double largest_force_N(const Profile& profile) {
                                                profile.geometry.count));
 }
 
-/// Largest torque limit: the torque that the strings can give at the centre about every axis, and
-/// no less than kDefaultTorque_Nm.
+/// The upper bound of a torque limit: the torque that the strings can exert at the centre about
+/// every axis, and no less than kDefaultTorque_Nm.
 inline double largest_torque_Nm(const Profile& profile) {
   return std::max(kDefaultTorque_Nm,
                   least_reach(structure_matrix(profile.geometry, {}).bottomRows<3>() *

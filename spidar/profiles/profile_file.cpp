@@ -17,8 +17,8 @@
 namespace spidar {
 namespace {
 
-/// Every accessor throws ProfileError when the value is not what is asked for. Refers to the parsed
-/// document and to `file`, which outlive it.
+/// A field of the parsed document, which must outlive this object, as must `file`. Every accessor
+/// throws ProfileError when the value has not the requested type.
 class TomlField {
  public:
   TomlField(const std::string& file, const toml::node& node, std::string name = "")
@@ -60,7 +60,6 @@ class TomlField {
 
   size_t size() const { return array().size(); }
 
-  /// `i` < size().
   TomlField operator[](size_t i) const {
     return {*file_, array()[i], name_ + "[" + std::to_string(i) + "]"};
   }
@@ -138,34 +137,38 @@ class TomlField {
 namespace {
 
 constexpr int kMinStrings = 6;  // fewer cannot hold six degrees of freedom
-// A larger value is a mistaken unit: the largest SPIDAR fills a room.
+// A larger value has a mistaken unit: the largest SPIDAR fills a room.
 constexpr double kMaxCoordinate_m = 5.0;
 constexpr double kMinLength_m = 1e-3;
 // The finest encoder of a SPIDAR has 8 µm, the coarsest 35 µm.
 constexpr double kMin_m_per_count = 1e-6;
 constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
-// No grip of 300 g within 8 cm has more, and no ball of 1 g and 16 mm less: a mistaken unit.
+// No grip of 300 g within 8 cm has more, and no ball of 1 g and 16 mm less: such a value has a
+// mistaken unit.
 constexpr double kMinInertia_kg_m2 = 1e-7;
 constexpr double kMaxInertia_kg_m2 = 2e-3;
-// Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A drives an amplifier.
+// Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A converter drives an
+// amplifier.
 constexpr double kMaxDac_V = 60;
 // Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
 constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
-// Steps of the D/A in the range of a string, at least; the shipped profiles have 280 or more.
+// The fewest steps of the D/A converter in the range of a string; the shipped profiles have 280 or
+// more.
 constexpr double kMinSteps = 16;
-// No string of a device for a hand pulls more; the strongest of the shipped profiles have 20 N.
+// No string of a hand-held device pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
-// What pulls less moves no grip.
+// A weaker string moves no grip.
 constexpr double kMinTension_N = 0.1;
-// No limit bounds what the strings exert at rest: off the centre about the pull of one of them.
+// No limit bounds the force of the strings at rest, which off the centre is about the pull of one.
 constexpr double kMaxRest_N = kDefaultForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
 constexpr double kMinHeating_s = 1;
 constexpr double kMaxHeating_s = 120;
-// What the strings reach in the weakest direction, for one newton of each. Shipped: 1.2 or more.
+// The force in the weakest direction for one newton of each string. The shipped profiles have 1.2
+// or more.
 constexpr double kMinReach = 0.1;
 constexpr double kMaxResidual_m = 0.05;
 
@@ -251,7 +254,7 @@ StringGeometry read_geometry(const TomlField& in) {
   return geometry;
 }
 
-/// One number for all strings, or an array with one for each; all above zero.
+/// Reads one number for all strings, or an array with one for each; all must be above zero.
 std::array<double, kMaxStrings> per_string(const TomlField& field, int count) {
   std::array<double, kMaxStrings> values{};
   if (!field.is_array()) {
@@ -273,7 +276,7 @@ std::array<int, kMaxStrings> signs(const TomlField& field, int count) {
   return values;
 }
 
-/// Zero when it is missing.
+/// Returns zeros when the field is missing.
 std::array<double, kMaxStrings> home_offsets(const TomlField& strings,
                                              const StringGeometry& geometry) {
   std::array<double, kMaxStrings> values{};
@@ -420,7 +423,7 @@ double at_most(const TomlField& field, double value, double most, const std::str
   return value;
 }
 
-/// One number for all axes, or the three principal moments.
+/// Reads one number for all axes, or the three principal moments.
 Eigen::Vector3d moments_of_inertia(const TomlField& field) {
   if (field.is_array() && field.size() != 3) {
     field.fail("has " + as_text(field.size()) +
@@ -435,7 +438,7 @@ Eigen::Vector3d moments_of_inertia(const TomlField& field) {
                  "; the unit is kg m²");
     }
   }
-  // Equal moments are a sphere's; rounding must not turn a thin disc away.
+  // A sphere has equal moments; the margin accepts a thin disc in spite of rounding.
   if (moments.maxCoeff() > 0.5 * moments.sum() * (1 + 1e-9)) {
     field.fail("has a moment above the sum of the other two, which no body has");
   }

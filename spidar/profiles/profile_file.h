@@ -37,15 +37,14 @@
 
 namespace spidar {
 
-/// Reads and checks one profile. `path` is only for messages, `name` becomes Profile::name.
+/// Parses and checks one profile. `path` is only for messages, `name` becomes Profile::name.
 /// Left-handed tables are turned into D by z → −z. Throws ProfileError.
 Profile parse_profile(const std::string& text, const std::string& path, const std::string& name);
 
-/// TOML from which load_profile() reads exactly the same profile, except for its name, which is
-/// that of the file. Geometry is in D and metres.
+/// Returns TOML from which load_profile() reads exactly the same profile, except for its name,
+/// which is that of the file. Geometry is in D and metres.
 std::string profile_text(const Profile& profile);
 
-/// Writes profile_text() to `path` with replace_file().
 void save_profile(const Profile& profile, const std::string& path);
 
 /// The shipped profiles: TOML by file name, without its ending.

@@ -12,10 +12,10 @@ namespace spidar {
 namespace {
 
 std::string number(double value) {
-  return std::string(NumberText(value + 0.0));  // of −0 and 0 only the second
+  return std::string(NumberText(value + 0.0));  // the sum turns −0 into 0
 }
 
-/// `value(i)` for each of `count` strings, on one line.
+/// Writes `value(i)` for each of `count` strings, on one line.
 template <typename Value>
 std::string listed(size_t count, Value value) {
   std::string text = "[";

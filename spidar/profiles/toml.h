@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Includes toml++, which is included only here. Its parser (3.0 to 3.3) calls assert() where the
-/// name of a table begins with a wrong character, as in "[~]", and without assert() assumes that
-/// none does. A file must not end the program, so std::logic_error is thrown, beside
+/// The only file that includes toml++. Its parser (3.0 to 3.3) calls assert() where the name of a
+/// table begins with a wrong character, as in "[~]", and without assert() assumes that none does. A
+/// file must not end the program, so here the parser throws std::logic_error, beside
 /// toml::parse_error. Within noexcept functions of toml++ that still ends the program, as assert()
 /// would; GCC warns of this.
 #pragma once
@@ -34,15 +34,15 @@
 
 namespace spidar {
 
-/// What toml++ must not be given, and its line; 0: there is nothing of that.
+/// Something that toml++ must not parse, and its line; 0: the text has nothing of that kind.
 struct TomlTrap {
   int line = 0;
   const char* what = "";
 };
 
-/// Looks for the first byte above ASCII that is neither in a string nor in a comment, at some of
-/// which, as U+01BA, toml++ 3.3 runs into undefined behaviour, and for a name of so many parts that
-/// a table for each of them, in another one, fills the stack.
+/// Looks for two things. At some bytes above ASCII that are neither in a string nor in a comment,
+/// such as U+01BA, toml++ 3.3 runs into undefined behaviour. A name of very many parts makes nested
+/// tables, which fill the stack.
 inline TomlTrap trap_in_toml(std::string_view text) {
   constexpr int kMaxDots = 15;
   int dots = 0;
@@ -51,13 +51,14 @@ inline TomlTrap trap_in_toml(std::string_view text) {
     return TomlTrap{1 + static_cast<int>(lines), what};
   };
   size_t i = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;  // a byte order mark
-  std::string_view end;                                    // of the string or comment
+  std::string_view end;                                    // the end of the string or comment
   while (i < text.size()) {
     if (!end.empty()) {
       const bool escapes = end[0] == '"' && text[i] == '\\';
       const bool ends = text.substr(i, end.size()) == end;
       i += escapes ? 2 : ends ? end.size() : 1;
-      // Three quotes end a string with the last of up to five.
+      // A string in triple quotes may end with up to five quotes, of which the last three are its
+      // end.
       for (int n = 0; ends && end.size() == 3 && n < 2 && i < text.size() && text[i] == end[0];
            ++n) {
         ++i;
@@ -68,7 +69,7 @@ inline TomlTrap trap_in_toml(std::string_view text) {
     if (static_cast<unsigned char>(text[i]) >= 0x80) {
       return trap(i, "a letter that is not ASCII must be in quotes");
     }
-    // A name may go on to the end of its line; of numbers, each has one.
+    // A name ends with its line at the latest, and each number has one point.
     if (text[i] == ',' || text[i] == '=' || text[i] == '\n') dots = 0;
     if (text[i] == '.' && ++dots > kMaxDots) return trap(i, "a name has more than 16 parts");
     for (const std::string_view begin : {"\"\"\"", "'''", "\"", "'", "#"}) {
@@ -82,7 +83,6 @@ inline TomlTrap trap_in_toml(std::string_view text) {
   return {};
 }
 
-/// Throws ProfileError, which begins with `path`.
 inline toml::table parse_toml(const std::string& text, const std::string& path) {
   const auto fail = [&](const std::string& line, const std::string& why) -> toml::table {
     throw ProfileError(path + line + ": not TOML: " + why);

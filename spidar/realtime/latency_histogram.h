@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A histogram of durations, such as the lateness of ticks.
 #pragma once
 
 #include <array>
@@ -11,8 +10,9 @@
 
 namespace spidar {
 
-/// Durations in `Bins` bins of `BinWidth_ns`, and one for all above. One thread adds while any
-/// thread may read. Adding neither locks nor allocates.
+/// A histogram of durations, such as the lateness of ticks, with `Bins` bins of `BinWidth_ns` and
+/// one for all longer durations. One thread adds while any thread may read. Adding neither locks
+/// nor allocates.
 template <size_t Bins, int64_t BinWidth_ns>
 class DurationHistogram {
  public:
@@ -42,11 +42,11 @@ class DurationHistogram {
     return sum;
   }
 
-  /// Largest duration, exact.
+  /// The largest duration, exact.
   int64_t max_ns() const noexcept { return max_ns_.load(std::memory_order_relaxed); }
 
-  /// The quantile `q` (0 … 1): the upper end of its bin, at most 1 µs too large. max_ns() when it
-  /// is above 2 ms; 0 when the histogram is empty.
+  /// Returns the quantile `q` (0 … 1): the upper end of its bin, at most 1 µs too large. Returns
+  /// max_ns() when the quantile is above 2 ms, and 0 when the histogram is empty.
   int64_t quantile_ns(double q) const noexcept {
     const double rank = std::ceil(q * static_cast<double>(count()));
     uint64_t sum = 0;
@@ -61,7 +61,7 @@ class DurationHistogram {
   }
 
  private:
-  std::array<std::atomic<uint64_t>, kBins + 1> counters_{};  // the last: all above
+  std::array<std::atomic<uint64_t>, kBins + 1> counters_{};  // the last counts all longer durations
   std::atomic<int64_t> max_ns_{0};
 };
 

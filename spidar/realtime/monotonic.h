@@ -11,7 +11,6 @@ namespace spidar {
 
 constexpr int64_t kSecond_ns = 1'000'000'000;
 
-/// The time on `clock`, ns.
 inline int64_t clock_ns(clockid_t clock) noexcept {
   timespec now{};
   clock_gettime(clock, &now);
@@ -22,12 +21,11 @@ inline timespec to_timespec(int64_t ns) noexcept {
   return {static_cast<time_t>(ns / kSecond_ns), static_cast<long>(ns % kSecond_ns)};
 }
 
-/// CLOCK_MONOTONIC, nanoseconds.
 inline int64_t monotonic_now_ns() noexcept {
   return clock_ns(CLOCK_MONOTONIC);
 }
 
-/// Sleeps until this time, also when signals arrive. Returns at once when it is past.
+/// Sleeps until this time, in spite of signals. Returns at once when the time is past.
 inline void sleep_until_ns(int64_t monotonic_ns) noexcept {
   const timespec until = to_timespec(monotonic_ns);
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {

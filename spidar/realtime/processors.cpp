@@ -20,12 +20,13 @@ double quota_in(const fs::path& quota_file, const fs::path& period_file) {
   double quota_us = 0, period_us = 0;
   text >> quota_us;
   (next.is_open() ? next : text) >> period_us;
-  // "max" and −1 are no limit.
+  // The files say "max" or −1 for no limit.
   return quota_us > 0 && period_us > 0 ? quota_us / period_us : kUnlimited;
 }
 
-/// Of the group and of those around it. In a container, /proc may name the group by a path of the
-/// host, below which nothing is mounted; the container's own is the mounted root then.
+/// Returns the smallest quota of the group and those around it. In a container, /proc may name the
+/// group by a path of the host, below which nothing is mounted; then the mounted root is the
+/// container's own group.
 double least_quota(const fs::path& mounted, fs::path group) {
   double least = kUnlimited;
   for (bool is_root = false; !is_root; group = group.parent_path()) {
@@ -37,7 +38,7 @@ double least_quota(const fs::path& mounted, fs::path group) {
   return least;
 }
 
-/// In processors.
+/// Returns the quota in processors.
 double quota(const fs::path& root) {
   std::ifstream groups(root / "proc/self/cgroup");
   double least = kUnlimited;

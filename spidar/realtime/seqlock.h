@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A value that one thread writes and others read without locks.
 #pragma once
 
 #include <array>
@@ -12,9 +11,10 @@
 
 namespace spidar {
 
-/// The writer never waits; several writers need a lock of their own. The words are atomics, so that
-/// there is no data race in the sense of the language (Boehm, "Can seqlocks get along with
-/// programming language memory models?", 2012).
+/// A value that one thread writes and others read without locks. The writer never waits; several
+/// writers need a lock of their own. The words are atomics, so that there is no data race in the
+/// sense of the language (Boehm, "Can seqlocks get along with programming language memory models?",
+/// 2012).
 template <typename T>
 class Seqlock {
   // Eigen's fixed-size types are plain memory but not formally trivially copyable.
@@ -30,13 +30,13 @@ class Seqlock {
     std::memcpy(words.data(), static_cast<const void*>(&value), sizeof(T));
     const uint64_t sequence = sequence_.load(std::memory_order_relaxed);
     sequence_.store(sequence + 1, std::memory_order_relaxed);
-    // Release: a reader that sees a new word also sees the odd number.
+    // With release order, a reader that sees a new word also sees the odd number.
     for (size_t i = 0; i < kWords; ++i) words_[i].store(words[i], std::memory_order_release);
     sequence_.store(sequence + 2, std::memory_order_release);
   }
 
-  /// Returns false and leaves `value` unchanged when a write is under way. For readers of higher
-  /// priority than the writer: on a single processor they would wait forever for a writer that
+  /// Returns false and leaves `value` unchanged while the writer writes. For readers of higher
+  /// priority than the writer: on a single processor, load() would wait forever for a writer that
   /// cannot run.
   bool try_load(T& value) const noexcept {
     std::array<uint64_t, kWords> words;
@@ -47,7 +47,7 @@ class Seqlock {
     return true;
   }
 
-  /// Repeats while a write is under way.
+  /// Waits while the writer writes.
   T load() const noexcept {
     T value;
     while (!try_load(value)) {

@@ -14,13 +14,12 @@
 
 namespace spidar {
 
-/// Whether the loop's thread runs with real-time priority, and if not, why.
 struct Scheduling {
   bool real_time = false;
   std::string detail;  ///< "SCHED_FIFO 80", or the reason and what would help
 };
 
-/// Timing of all ticks since the thread was started. Readable while it runs.
+/// The timing of all ticks since the thread was started. Readable while the thread runs.
 struct LoopTiming {
   LatencyHistogram lateness;  ///< from the deadline to the beginning of the tick
   LatencyHistogram cycle;     ///< from the beginning of the tick to its end, device included
@@ -30,17 +29,18 @@ struct LoopTiming {
 /// its watchdogs and migration threads (99).
 constexpr int kRealTimePriority = 80;
 
-/// Asks for SCHED_FIFO for the calling thread, with kRealTimePriority or as much as is allowed.
+/// Requests SCHED_FIFO for the calling thread, with kRealTimePriority or the highest permitted
+/// priority.
 Scheduling request_real_time();
 
 /// Makes timers of the calling thread fire when they are due. By default, the kernel fires them up
 /// to 50 µs later, so that processors sleep longer. A real-time thread has no slack anyway.
 void request_exact_timers() noexcept;
 
-/// Gives the calling thread a low priority.
 void request_background() noexcept;
 
-/// During its lifetime, threads that the calling thread starts have all signals blocked.
+/// During the lifetime of this object, threads that the calling thread starts have all signals
+/// blocked.
 class SignalsBlocked {
  public:
   SignalsBlocked() noexcept;
@@ -52,12 +52,12 @@ class SignalsBlocked {
   sigset_t previous_;
 };
 
-/// What was refused, and what would help: a sentence for std::system_error.
+/// Returns what was refused, and what would help: a sentence for std::system_error.
 std::string refused_thread(const char* name);
 
-/// Starts a thread. All threads of this library are started here, with a name of up to 15
-/// characters for debuggers and top, and with all signals blocked, so that signals reach the
-/// application's own threads. Throws std::system_error, which says what was refused and what helps.
+/// Starts a thread. The library starts all its threads here, with a name of up to 15 characters for
+/// debuggers and top, and with all signals blocked, so that signals reach the application's own
+/// threads. Throws std::system_error, which says what was refused and what would help.
 template <typename Function>
 std::thread start_thread(const char* name, Function run) {
   const SignalsBlocked blocked;

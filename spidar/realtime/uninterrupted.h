@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// System calls in programs that get signals, as from the timers of profilers and sequencers. Some
+/// System calls in programs that get signals, as from the timers of profilers and sequencers: some
 /// calls fail then although the handler restarts calls (signal(7)).
 #pragma once
 
@@ -20,7 +20,7 @@ auto uninterrupted(const Call& call) noexcept {
   return result;
 }
 
-/// The same for a call that waits for a limited time, which begins anew with each call.
+/// Repeats a call that waits for a limited time, which begins anew with each repetition.
 template <typename Call>
 auto uninterrupted_until(int64_t monotonic_ns, const Call& call) noexcept {
   auto result = call();

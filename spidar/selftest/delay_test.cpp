@@ -22,14 +22,13 @@ constexpr double kBegin_s = kFade_s + DelaySettings::kSettle_s;
 constexpr double kRound_s = DelaySettings::kRound_s;
 /// Wrenches are scheduled this long before they are due, so that none is late and faded in.
 constexpr int64_t kAhead_ns = 20 * kTick_ns;
-/// A wrench holds for this long if the next one is late; then the loop ramps to rest.
+/// How long a wrench lasts if the next one is late; then the loop ramps to zero.
 constexpr int64_t kHold_ns = 10 * kTick_ns;
-/// Time limit for the pose to become known and the tensions to settle.
 constexpr double kOpening_s = 2;
 /// A longer pause makes a period unusable.
 constexpr double kLongestGap_s = 0.01;
 
-/// Fades from 0 to 1 and back to 0 in a round, with zero slope at both ends.
+/// Rises from 0 to 1 and falls back to 0 in a period, with zero slope at both ends.
 double envelope(double time_s) {
   const double way = std::clamp(std::min(time_s, kRound_s - time_s) / kFade_s, 0.0, 1.0);
   return way * way * (3 - 2 * way);
@@ -55,7 +54,6 @@ class DelayRun {
   }
 
  private:
-  /// The loop's default limits, with the force limited to the configured peak.
   static SafetyLimits limits(const DelaySettings& settings) {
     SafetyLimits limits;
     limits.max_force_N = std::min(limits.max_force_N, settings.peak_N);
@@ -74,7 +72,7 @@ class DelayRun {
     while (loop_->pop_record(record_)) {
     }
     if (!loop_->lost()) return true;
-    // A pause for which the guardian has set the motors to zero.
+    // In such a pause the guardian has set the motors to zero.
     const bool stood_still = device_.health().last_fault == LinkFault::kStoodStill;
     if (stood_still && ++reopened_ <= settings_.most_periods() && loop_->reopen()) return true;
     return fail_by_device(loss_text(device_.name(), device_.health().last_fault, late_ns));
@@ -158,8 +156,8 @@ class DelayRun {
     return true;
   }
 
-  /// After a pause of the machine the loop has lost the pose. It then ramps the force to rest until
-  /// the pose is known again. This is not a fault of the device.
+  /// After a pause of the machine the loop has lost the pose. The loop then ramps the force to zero
+  /// until the pose is known again. This is not a fault of the device.
   bool recovers() const {
     const PoseFault fault = loop_->snapshot().last.pose_fault;
     return record_.acknowledged && (fault == PoseFault::kNoReading || fault == PoseFault::kNotYet);

@@ -16,19 +16,19 @@
 namespace spidar::selftest {
 
 struct DelaySettings {
-  double peak_N = 0.4;  ///< peak force
-  int periods = 12;     ///< number of one-second periods, at least kFewestPeriods
-  uint32_t seed = 1;    ///< of the random phases
+  double peak_N = 0.4;
+  int periods = 12;   ///< number of one-second periods, at least kFewestPeriods
+  uint32_t seed = 1;  ///< of the random phases
 
   /// Fewer periods give too poor an estimate of the variance.
   static constexpr int kFewestPeriods = 6;
-  /// Fade time of the force at both ends of a period, so that it causes no knock.
+  /// The time in which the force fades at both ends of a period, so that it causes no knock.
   static constexpr double kFade_s = 0.1;
-  /// Time between the fade-in and the measured period, in which the swing of a loosely held grip
-  /// decays.
+  /// The time between the fade-in and the measured period, in which the swing of a loosely held
+  /// grip decays.
   static constexpr double kSettle_s = 0.4;
 
-  /// Largest number of periods tried in order to obtain `periods` usable ones.
+  /// The most periods that are tried in order to obtain `periods` usable ones.
   int most_periods() const noexcept { return periods + periods / 2; }
   static constexpr double kRound_s = 2 * kFade_s + kSettle_s + Multisine::kPeriod_s;
   double seconds() const noexcept { return periods * kRound_s; }
@@ -36,38 +36,36 @@ struct DelaySettings {
 };
 
 struct DelayTest {
-  bool complete = true;       ///< false if it was interrupted
+  bool complete = true;       ///< false if the test was interrupted
   std::string error;          ///< why the test ended or has no result: a sentence, or empty
   bool is_of_device = false;  ///< `error` is a fault of the device, not only a missing result
   std::optional<LagFit> fit;
-  int periods = 0;  ///< number of periods used
+  int periods = 0;  ///< that were used
 
-  /// Whether the test has a result.
   bool measured() const noexcept { return error.empty() && fit; }
 };
 
-/// Expects a loosely held grip at rest near the centre. Pushes it along z, the direction in which
-/// surfaces push, which uses every string. The force is a zero-mean sum of sines of 11 to 83 Hz on
-/// top of the minimum tensions, and passes through a HapticLoop with its whole safety chain. The
-/// test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
+/// Expects a loosely held grip at rest near the centre. Pushes the grip along z, the direction in
+/// which surfaces push, which uses every string. The force is a zero-mean sum of sines of 11 to 83
+/// Hz on top of the minimum tensions, and passes through a HapticLoop with its whole safety chain.
+/// The test ends with a ramp to zero. It ends early when the pose is lost, a string is faulty, the
 /// device is lost, or the grip has moved by kFurthest_m. Throws DeviceError when the device cannot
 /// be opened, and std::invalid_argument for fewer periods than kFewestPeriods. `now_ns` is
 /// CLOCK_MONOTONIC, or the clock of a simulation, in ns.
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const std::function<int64_t()>& now_ns, const DelaySettings& settings = {});
 
-/// Largest displacement of the grip by drift of the hand and the force together.
+/// The largest displacement of the grip by drift of the hand and the force together.
 constexpr double kFurthest_m = 0.02;
 
 struct LagVerdict {
-  /// The profile states at least the lag that was measured, or the error interval reaches down to
-  /// what it states.
+  /// Whether the profile states at least the measured lag, or a lag within the interval of error.
   bool stated_enough = false;
-  /// Value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1 ms.
+  /// The value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1 ms.
   double safe_lag_s = 0;
 };
 
-/// `answer_ns`: the time after which a board answers in 99 of 100 exchanges. While playing, the
+/// `answer_ns` is the time within which a board answers in 99 of 100 exchanges. While playing, the
 /// loop does not wait longer than boards::StringLink::kReplyWait_ns, and the ticks that later
 /// answers cost are added to the lag.
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);

@@ -33,17 +33,16 @@ double hand_move_m(const StringGeometry& geometry);
 enum class EncoderSign {
   kAsProfile,
   kReversed,
-  kStill,    ///< it did not count
-  kUnclear,  ///< it counted up and down although its string was always paid out
+  kStill,    ///< the encoder did not count
+  kUnclear,  ///< the encoder counted up and down although its string was always paid out
 };
 
-/// The sign for each string of the profile. Only positions to which a string is paid out by at
-/// least 0.4 of the distance count: without motors, a string that was paid out stays slack, and is
-/// not wound up again. An encoder has counted if its string is longer or shorter there than at the
-/// centre by half of that.
+/// Returns the sign for each string of the profile. Only positions to which a string is paid out by
+/// at least 0.4 of the distance count, because without motors a string that was paid out stays
+/// slack, and is not wound up again. An encoder has counted if its string is longer or shorter
+/// there than at the centre by half of that length.
 std::array<EncoderSign, kMaxStrings> encoder_signs(const Profile& profile, const HandMoves& moves);
 
-/// Whether all strings are kAsProfile.
 bool encoders_agree(const Profile& profile, const HandMoves& moves);
 
 }  // namespace spidar::selftest

@@ -67,7 +67,7 @@ void StringHold::release() {
       exchange();
     }
   } catch (const StoodStill&) {
-    // They are at zero.
+    // The motors are already at zero.
   }
 }
 
@@ -91,7 +91,7 @@ void ForceHold::release() {
   try {
     go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
   } catch (const StoodStill&) {
-    // It is at zero.
+    // The motors are already at zero.
   }
 }
 

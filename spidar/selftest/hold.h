@@ -25,19 +25,19 @@ namespace spidar::selftest {
 using Pace = std::function<bool()>;
 
 /// This program got no processor time, or was stopped, for so long that the guardian has set the
-/// motors to zero. The part of the test that was begun can be repeated, see repeated().
+/// motors to zero. The interrupted part of the test can be repeated, see repeated().
 class StoodStill : public DeviceError {
  public:
   using DeviceError::DeviceError;
 };
 
-/// "usb: does not answer any more (unplugged); check cable and power". If this program was stopped
-/// or its guardian ended, that is what the text names. `late_ns`: time since the previous exchange;
-/// 0: not known.
+/// Returns a text such as "usb: does not answer any more (unplugged); check cable and power". If
+/// this program was stopped or its guardian ended, the text says so. `late_ns` is the time since
+/// the previous exchange; 0: unknown.
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns);
 
-/// Runs `part` of a test, which begins at rest and takes less than a second. If this program stood
-/// still meanwhile, opens the device of `hold` again, calls `begin`, and repeats the part. Throws
+/// Runs `part` of a test, which begins at rest and takes less than a second. If this program was
+/// stopped meanwhile, opens the device of `hold` again, calls `begin`, and repeats the part. Throws
 /// StoodStill when that happens each time: nothing can be measured on such a machine.
 template <typename AnyHold, typename Begin, typename Part>
 bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
@@ -55,13 +55,12 @@ bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
   }
 }
 
-/// What the holds of strings and of a grip have in common. The value changes linearly. Every
-/// function throws DeviceError, which says what happened, when the device is lost, or has not
-/// answered for too long.
+/// The common part of holding strings and a grip. The value changes linearly. Every function throws
+/// DeviceError when the device is lost, or has not answered for too long.
 template <typename Value, typename Reading>
 class Hold {
  public:
-  /// Goes to this value within the given time. Returns false when ended early.
+  /// Changes to this value within the given time. Returns false when ended early.
   bool go(const Value& value, double seconds) {
     const Value from = value_;
     const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
@@ -74,10 +73,10 @@ class Hold {
     return true;
   }
 
-  /// Holds the value for the given time, which may be infinite. Calls `seen` with every reading and
-  /// ends when it returns false. Returns false when the pace ended it early.
+  /// Holds the value for the given time, which may be infinite. Calls `seen` with every reading,
+  /// and ends when `seen` returns false. Returns false when the pace ended it early.
   bool stay(double seconds, const std::function<bool(const Reading&)>& seen = {}) {
-    // Half a tick, for the rounding errors of a long sum.
+    // Half a tick allows for the rounding errors of a long sum.
     for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
       if (!pace_()) return false;
       if (exchange() && seen && !seen(reading())) return true;
@@ -87,7 +86,7 @@ class Hold {
 
  protected:
   Hold(Openable& device, Pace pace) : pace_(std::move(pace)), held_(device) {}
-  /// Closes the device, which takes the value to zero.
+  /// Closes the device, which ramps the value to zero.
   ~Hold() { held_.close(); }
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
@@ -95,14 +94,13 @@ class Hold {
   virtual LinkFault put_out(const Value& value) noexcept = 0;
   virtual const Reading& reading() const noexcept = 0;
 
-  /// Returns false when there is no new reading.
   bool exchange() {
     const LinkFault fault = put_out(value_);
     watch(fault);
     return fault == LinkFault::kNone;
   }
 
-  /// Forgets what was put out: the value is zero.
+  /// Sets the value to zero without a ramp.
   void reset() {
     value_ = Value::Zero();
     missing_.reset();
@@ -113,24 +111,22 @@ class Hold {
   Value value_ = Value::Zero();
 
  private:
-  /// Throws DeviceError.
   void watch(LinkFault fault);
 
   Openable& held_;
   MissingAnswers missing_;
-  int64_t last_ns_ = 0;  ///< when the latest exchange ended
+  int64_t last_ns_ = 0;  ///< end of the latest exchange
 };
 
-/// Keeps a device open during its lifetime, and its strings at tensions in newtons.
+/// Keeps a device open during the lifetime of this object, and its strings at tensions in newtons.
 class StringHold final : public Hold<StringVector, DeviceReading> {
  public:
   /// Opens the device with zero tensions. Throws DeviceError.
   StringHold(StringDevice& device, const Profile& profile, Pace pace);
 
-  /// Opens the device again after it was lost.
   void open();
 
-  /// Ramps to zero; does not end early.
+  /// Ramps to zero, and does not end early.
   void release();
 
   /// Reverses the sign of this string's volts. Its tension must be zero.
@@ -145,15 +141,14 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   DeviceReading reading_;
 };
 
-/// Keeps a grip open during its lifetime, and a force on it. The force is switched on by go().
+/// Keeps a grip open during the lifetime of this object, and a force on it. go() switches the force
+/// on.
 class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.
   ForceHold(Grip& grip, Pace pace);
 
-  /// Opens the grip again after it was lost, with forces switched off.
   void open();
-  /// Ramps to zero.
   void release();
 
   bool go(const Eigen::Vector3d& force_N, double seconds) {

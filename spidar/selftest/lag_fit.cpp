@@ -89,30 +89,29 @@ namespace {
 /// The pure delay is negative if a board reads its counters later in an exchange than it sets its
 /// output voltages. The simulation has a negative delay because of its time steps.
 constexpr double kShortestDelay_s = -0.001;
-/// Beyond kLongestLag_s, so that a lag that is too long is recognized.
+/// The search goes beyond kLongestLag_s to recognise a lag that is too long.
 constexpr double kScanTo_s = 2 * kLongestLag_s;
 constexpr double kScan_s = 5e-5;
 /// Half-width of the confidence interval in standard errors.
 constexpr double kDeviations = 3;
-/// The minimum number of lines at least three times above the noise.
+/// The fewest lines that must be at least three times above the noise.
 constexpr int kFewestLines = 8;
 /// Systematic error, the same in every period, as a fraction of the response: geometry, the
 /// directions of the strings as the grip moves, the time of an exchange.
 constexpr double kSystematic = 0.005;
-/// A larger misfit cannot be explained by noise.
+/// Noise cannot explain a larger misfit.
 constexpr double kMaxMisfit = 3;
-/// Coefficients of the denominator, and the delay.
+/// The coefficients of the denominator, and the delay.
 constexpr int kUnknowns = 5;
 
-/// The best denominator for a given delay.
 struct LagCandidate {
   double lag_s = 0;
   double cost = std::numeric_limits<double>::infinity();  ///< chi²
   double error_s = 0;                                     ///< standard error of the lag
 };
 
-/// T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T² − a₀
-/// T³, by Newton's method from a₃ / a₂, which it is without a hand. `by_coefficient`: its
+/// Returns T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T²
+/// − a₀ T³, by Newton's method from a₃ / a₂, the solution without a hand. `by_coefficient` gets its
 /// derivatives.
 double first_order_part_s(const Eigen::Vector4d& a, Eigen::Vector4d& by_coefficient) {
   double part_s = a[3] / a[2];
@@ -135,9 +134,9 @@ double weight_of(const ResponseLine& line, int periods) {
   return 1 / std::sqrt(0.5 * (estimated * line.variance + systematic));
 }
 
-/// The response is not linear in the coefficients, its inverse is: linear least squares on that, in
-/// which the first pass weighs errors by the measured response, and the others by the response that
-/// was found (Sanathanan and Koerner 1963).
+/// The inverse of the response is linear in the coefficients: linear least squares, in which the
+/// first pass weights errors by the measured response, and the later passes by the fitted response
+/// (Sanathanan and Koerner 1963).
 LagCandidate best_with_delay(const std::vector<ResponseLine>& lines, int periods, double delay_s) {
   constexpr int kPasses = 4;
   LagCandidate found;
@@ -176,7 +175,6 @@ bool stands_out(const ResponseLine& line) {
   return std::norm(line.response) > 9 * line.variance;
 }
 
-/// Empty if the fit can be used.
 std::string error_of(const LagFit& fit) {
   const double vague_s = std::max(kVagueLag_s, kVagueLagFraction * fit.lag_s);
   if (!(fit.misfit <= kMaxMisfit)) {
@@ -208,7 +206,7 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
         "larger force";
     return result;
   }
-  // Uses all lines: selecting those with a large response would bias the result upwards.
+  // All lines count: selecting those with a large response would bias the result upwards.
   std::vector<LagCandidate> found;
   for (double delay_s = kShortestDelay_s; delay_s <= kScanTo_s; delay_s += kScan_s) {
     found.push_back(best_with_delay(lines, periods, delay_s));
@@ -219,8 +217,8 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   const double spread = best.cost / static_cast<double>(2 * lines.size() - kUnknowns);
   result.misfit = std::sqrt(spread);
   result.lag_s = result.least_s = result.most_s = best.lag_s;
-  // Profile likelihood: for every delay, the lags whose cost is within the limit. A misfit scales
-  // all errors up.
+  // The interval is a profile likelihood: for every delay, the lags whose cost is within the limit.
+  // A misfit scales all errors up.
   const double scale = std::max(1.0, spread);
   for (const LagCandidate& candidate : found) {
     const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;

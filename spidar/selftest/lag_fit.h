@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The force that measures a lag, the response of a grip to it, and the lag of the drive.
+/// The force that measures the lag of a drive, the response of a grip to that force, and the lag.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,8 @@
 
 namespace spidar::selftest {
 
-/// A sum of sines with equal amplitudes and random phases. Each completes a whole number of cycles
-/// per second.
+/// A sum of sines with equal amplitudes and random phases. Each sine completes a whole number of
+/// cycles per second.
 class Multisine {
  public:
   /// Primes, so that no harmonic of one line falls on another, and at least 2 Hz apart, so that a
@@ -67,11 +67,10 @@ struct ResponseLine {
 /// into the lines.
 class PeriodSums {
  public:
-  /// The period begins at `begin_s`.
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
 
-  /// Call in order of time. At `time_s` the grip is at `position_m`, and `force_N` applies from
-  /// then until the next call. Times outside the period are ignored.
+  /// Tells that the grip is at `position_m` at `time_s`, and that `force_N` applies from then until
+  /// the next call. Times must rise; those outside the period are ignored.
   void add(double time_s, double force_N, double position_m) noexcept;
 
   const std::array<std::complex<double>, kLines>& force() const noexcept { return force_; }
@@ -98,28 +97,29 @@ class PeriodSums {
 std::vector<ResponseLine> average(const std::vector<PeriodSums>& periods);
 
 struct LagFit {
-  std::string error;   ///< why there is no result, a sentence; empty if there is one
-  double lag_s = 0;    ///< best estimate
+  std::string error;   ///< why there is no result, as a sentence; empty if there is one
+  double lag_s = 0;    ///< the best estimate
   double error_s = 0;  ///< standard error of lag_s
-  /// Confidence interval of 99.7 %: three standard errors to either side.
+  /// The confidence interval of 99.7 %: three standard errors to either side.
   double least_s = 0;
   double most_s = 0;
-  /// Deviation of the response from the model, relative to the noise: the square root of chi² per
-  /// degree of freedom.
+  /// The deviation of the response from the model, relative to the noise: the square root of chi²
+  /// per degree of freedom.
   double misfit = 0;
 };
 
 /// A longer lag is not reported: no surface should be touched with it.
 constexpr double kLongestLag_s = 0.03;
-/// Largest half-width of a usable interval: the larger of this time and this fraction of the lag.
+/// The largest half-width of a usable interval: the larger of this time and this fraction of the
+/// lag.
 constexpr double kVagueLag_s = 0.001;
 constexpr double kVagueLagFraction = 0.15;
 
 /// Fits D(jω) / (−mω² + jωd + k) to the response. The model is a rigid grip of mass m with the
 /// spring k and damper d of the hand, driven through D(jω) = exp(−jωτ) / (1 + jωT), a pure delay
 /// and a first-order lag in any proportion. The lag is τ + T, the low-frequency delay of D, which
-/// the damping of a surface has to compensate. It can be distinguished from the damping because its
-/// phase grows with frequency while that of the damping falls.
+/// the damping of a surface has to compensate. The lag and the damping can be distinguished,
+/// because the phase of the lag grows with frequency while that of the damping falls.
 ///
 /// The model assumes that neither the grip nor the hand resonates between 11 and 83 Hz, and that
 /// the strings stretch little compared with the motion of the grip. A violation appears as misfit.

@@ -15,7 +15,7 @@
 namespace spidar::selftest {
 namespace {
 
-/// Signs in a profile of the device as it is wired.
+/// The signs that a profile must have for the device as it is wired.
 int motor_sign(const Profile& profile, const WiringReport& report, int i) {
   const auto k = static_cast<size_t>(i);
   return profile.drives[k].motor_sign * (report.channel[k].motor_reversed ? -1 : 1);
@@ -26,7 +26,8 @@ int encoder_sign(const Profile& profile, const WiringReport& report, int i) {
   return profile.drives[k].encoder_sign * (report.channel[k].encoder_reversed ? -1 : 1);
 }
 
-/// Holds also after the plugs are put right, because a motor keeps its direction of rotation.
+/// The result also holds after the plugs are put right, because a motor keeps its direction of
+/// rotation.
 bool motor_reversed(const Profile& profile, const WiringReport& report, int i) {
   const int string = report.channel[static_cast<size_t>(i)].motor_string;
   return string >= 0 &&

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The report of `spidarctl selftest`, for people and for programs.
 #pragma once
 
 #include <iosfwd>
@@ -11,7 +10,7 @@
 
 namespace spidar::selftest {
 
-/// Prints, on standard error, what to do with the hand before unclear motors are pulled again.
+/// Prints, on standard error, what the hand must do before unclear motors are pulled again.
 void tell_to_hold_still(const WiringReport& report);
 
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,

@@ -27,11 +27,11 @@ bool average(ForceHold& hold, Eigen::Vector3d& position_m) {
   return whole;
 }
 
-/// Means of four pushes, along the force.
 struct Pushes {
-  double moved_m = 0;  ///< how far it moved
-  double place_m = 0;  ///< where it was then, from its middle: where that is cancels in the mean
-  double back_m = 0;   ///< how far it went back when the force had ended
+  double moved_m = 0;  ///< the motion during the push
+  /// The distance from the middle at the end of the push; the middle cancels in the mean.
+  double place_m = 0;
+  double back_m = 0;  ///< the motion back after the push
 };
 
 bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
@@ -45,7 +45,8 @@ bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
   const Eigen::Vector3d along = force_N.normalized();
   const double pushed_by_m = along.dot(pushed_m - before_m),
                let_go_at_m = along.dot(let_go_m - before_m);
-  // A strong spring has pulled it back when the force ends; without one, it moves on until then.
+  // A strong spring has pulled the stick back when the force ends; without a spring, the stick
+  // moves on until then.
   const Eigen::Vector3d farthest_m =
       std::abs(pushed_by_m) > std::abs(let_go_at_m) ? pushed_m : let_go_m;
   mean.moved_m += along.dot(farthest_m - before_m) / 4;
@@ -54,11 +55,11 @@ bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
   return true;
 }
 
-/// A stick whose friction grows with its speed goes back by the fraction 1 − exp(−k t/c) of its way
-/// in the time t, where k is the spring and c the friction. In the time T of the push, a force F
-/// had moved it by (1 − exp(−k T/c)) F/k. There, the spring pulls with 1 − exp(−k T/c) of F.
+/// A stick with spring k and viscous friction c goes back by the fraction 1 − exp(−k t/c) of its
+/// way in the time t. In the time T of the push, a force F had moved it by (1 − exp(−k T/c)) F/k.
+/// There, the spring pulls with 1 − exp(−k T/c) of F.
 double spring_that_pulls_back(double fraction) {
-  // Ramps count half, at both ends of the push.
+  // The ramps at both ends of the push count half.
   constexpr double kPushed_s = kRamp_s + kPush_s + kAverage_s;
   constexpr double kReturned_s = kReturn_s + kAverage_s;  // between the middles of two averages
   return 1 - std::pow(1 - std::clamp(fraction, 0.0, 1.0), kPushed_s / kReturned_s);
@@ -120,7 +121,7 @@ std::string axis_text(const StickTest& test, size_t axis, double reach_m) {
          " of the push\n";
 }
 
-/// "flip=xy" so that the sides of `against` are turned round in comparison with `device`.
+/// Returns "flip=xy", which reverses the sides of `against` in comparison with `device`.
 std::string flip_option(const std::string& device, const std::array<bool, 2>& against) {
   const size_t given = device.find(",flip=");
   const std::string before =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether a device that takes a force moves in the direction of that force, and whether a spring
-/// pulls it back.
+/// Tests whether a device that takes a force moves in the direction of that force, and whether a
+/// spring pulls it back.
 #pragma once
 
 #include <array>
@@ -19,26 +19,26 @@ struct StickTest {
   /// or there is no motor.
   static constexpr double kMin_m = 0.5e-3;
 
-  /// How far it moved along the force, as a grip, in metres: right, up, towards the viewer.
-  /// Positive values are correct; on an axis with a negative one, it moved against the force.
+  /// The motion along the force, as a grip, in metres: right, up, towards the viewer. Positive
+  /// values are correct; where a value is negative, the stick moved against the force.
   std::array<double, 3> moved_m{};
-  /// Force of a spring that pulls it back, at the place to which the push moves it from its middle,
-  /// as a fraction of the push. 0: none was found. Friction of the stick makes it look weaker.
+  /// The force of a spring that pulls the stick back, at the place to which the push moves it, as a
+  /// fraction of the push. 0: none was found. Friction of the stick makes the spring look weaker.
   std::array<double, 3> spring{};
   /// The weakest spring that would have been found, because it moves the stick back by kMin_m.
   std::array<double, 3> least_spring{};
   std::string description;  ///< of the open device
-  bool complete = false;    ///< false: ended early by the pace
+  bool complete = false;    ///< false if the pace ended the test early
 };
 
 /// Pushes four times along each axis that the device has, for 0.2 s: to one side, twice to the
-/// other, and back, so that a drift cancels. Lets it go for 0.3 s after each. A push is repeated
-/// when this program stood still. Throws DeviceError when the device is lost, or does not know
-/// where it is.
+/// other, and back, so that a drift cancels. Releases the stick for 0.3 s after each push. A push
+/// is repeated when this program was stopped. Throws DeviceError when the device is lost, or does
+/// not know its position.
 StickTest test_stick(Grip& grip, const Pace& pace, double push_N);
 
-/// `can`: what the device can do; `reach_m`: where the grip is when it is pushed all the way;
-/// `device`: "ff" or "ff:PATH,flip=x", as it was tested.
+/// `can` is what the device can do; `reach_m` is the position of the grip when the stick is pushed
+/// all the way; `device` is the name that was tested: "ff" or "ff:PATH,flip=x".
 std::string stick_report(const StickTest& test, const GripAbilities& can,
                          const Eigen::Vector2d& reach_m, const std::string& device);
 

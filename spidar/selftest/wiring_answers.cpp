@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kRunaway_m = 0.03;
 constexpr int kRounds = 4;
-/// By which fraction of an answer the next one may differ, because hands drift and tremble. A motor
-/// that does nothing has no answer, so this allows at most smallest_answer_m() for it.
+/// The fraction by which two answers may differ, because hands drift and tremble. A motor that does
+/// nothing has no answer, so this allows at most smallest_answer_m() for it.
 constexpr double kSteady = 0.25;
 
 class Asking {
@@ -90,7 +90,6 @@ class Asking {
     return true;
   }
 
-  /// Changes of the counts.
   struct Pull {
     StringVector answer = StringVector::Zero();
     /// From the rest before the pull to the rest after it.
@@ -109,7 +108,7 @@ class Asking {
     if (!hold_.go(pulled_N, settings_.ramp_s) || !stay() || !average(pulled)) return false;
     pulling_ = -1;
     if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
-    // Relative to the mean of both rests, so that a slow drift of the hand cancels.
+    // The reference is the mean of both rests, so that a slow drift of the hand cancels.
     result.answer = pulled - 0.5 * (at_rest_ + after);
     result.drift = after - at_rest_;
     at_rest_ = after;
@@ -197,8 +196,8 @@ class Asking {
   const StringVector rest_N_;
   StringHold hold_;
   int pulling_ = -1;
-  StringVector at_rest_ = StringVector::Zero();  ///< latest average of the counts
-  bool rested_ = false;                          ///< whether it belongs to the present tensions
+  StringVector at_rest_ = StringVector::Zero();  ///< the latest average of the counts
+  bool rested_ = false;  ///< whether `at_rest_` belongs to the present tensions
 };
 
 }  // namespace

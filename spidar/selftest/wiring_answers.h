@@ -17,7 +17,7 @@ namespace spidar::selftest {
 /// A motor that has been pulled, to be shown while others are pulled.
 struct PulledMotor {
   int motor = 0;
-  double own_length_m = 0;  ///< change of the length that its own encoder reads
+  double own_length_m = 0;  ///< the change of the length that its own encoder reads
   bool steady = true;       ///< see WiringAnswers::unsteady
 };
 
@@ -26,39 +26,39 @@ struct WiringSettings {
   double ramp_s = 0.05;  ///< time to build up the pull, and to release it
   double settle_s = 0.1;
   double average_s = 0.1;
-  /// Tries a motor that does nothing with the other sign; for boards that can give negative volts.
+  /// Tries a motor that does nothing with the other sign, on boards with negative volts.
   bool try_reversed = false;
-  /// If not null, receives each motor as soon as it has been pulled. It has room for the pulls of
-  /// all tries.
+  /// If not null, receives each motor after its pull. The capacity is enough for the pulls of all
+  /// tries.
   SpscRing<PulledMotor, 64>* pulled = nullptr;
 };
 
 struct WiringAnswers {
-  /// Answer of an encoder (row) to the pull of a motor (column).
+  /// The answer of an encoder (row) to the pull of a motor (column).
   Eigen::Matrix<double, kMaxStrings, kMaxStrings> counts = decltype(counts)::Zero();
-  StringVector pulled_N = StringVector::Zero();  ///< by how much more each motor pulled
-  std::array<bool, kMaxStrings> reversed{};  ///< it pulled with the other sign than the profile's
+  StringVector pulled_N = StringVector::Zero();  ///< the additional tension of each motor
+  /// The motor pulled with the sign opposite to the profile's.
+  std::array<bool, kMaxStrings> reversed{};
   /// The answers to its pulls differed at every attempt, because the hand moved.
   std::array<bool, kMaxStrings> unsteady{};
-  bool complete = false;  ///< false: ended early by the pace
+  bool complete = false;  ///< false if the pace ended it early
 };
 
 /// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
-/// loosely. Each is pulled twice. When the two answers differ, or the rests between which they lie,
-/// both are repeated, up to three times. Takes a second a string with the default settings, and as
-/// much again where pulls are repeated or a motor is tried with the other sign.
+/// loosely. Each string is pulled twice. When the two answers differ, or the rests between which
+/// they lie, both pulls are repeated, up to three times. Takes a second a string with the default
+/// settings, and as much again where pulls are repeated or a motor is tried with the other sign.
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away by 30 mm, further than a
 /// hand gives way: the motor unwinds the string, or nobody holds the grip.
 WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
                          const WiringSettings& settings = {});
 
-/// Pulls these motors again, and replaces their answers.
 void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
                const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers);
 
-/// Smallest change of length that counts as an answer, metres: some counts, above the tremor of a
+/// The smallest change of length that counts as an answer, m: some counts, above the tremor of a
 /// hand.
 double smallest_answer_m(const Profile& profile);
 

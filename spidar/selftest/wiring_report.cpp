@@ -13,13 +13,13 @@
 namespace spidar::selftest {
 namespace {
 
-/// By how much each assumed fault lowers the score of an explanation, as a fraction of a perfect
+/// How much each assumed fault lowers the score of an explanation, as a fraction of a perfect
 /// correlation.
 constexpr double kFaultCost = 2e-3;
 /// An answer below this fraction of the median of the strongest answers counts as none.
 constexpr double kSilent = 0.1;
-/// Allowed strength of a motor's answer relative to the others, as a multiple of the expected one:
-/// hands are not equally stiff in all directions, and motors not equally strong.
+/// The accepted strength of a motor's answer relative to the others, as a multiple of the expected
+/// one: hands are not equally stiff in all directions, and motors not equally strong.
 constexpr double kWeakest = 1.0 / 3, kStrongest = 3;
 constexpr double kRotationShares[] = {0.1, 0.3, 1, 3, 10};
 
@@ -27,7 +27,7 @@ struct Explanation {
   std::array<int, kMaxStrings> motor{}, encoder{};
   std::array<bool, kMaxStrings> encoder_reversed{};
   double correlation = 0;
-  double worth = -1;  // correlation minus the cost of the faults
+  double worth = -1;  // the correlation minus the cost of the faults
 };
 
 class Judge {
@@ -91,7 +91,7 @@ class Judge {
     }
   }
 
-  /// Shortening of string j when string i is pulled, up to a common factor.
+  /// Computes the shortening of string j when string i is pulled, up to a common factor.
   void expect(double rotation_fraction) {
     const GripModel hand;
     Eigen::Matrix<double, 6, 1> compliance;
@@ -100,7 +100,8 @@ class Judge {
     expected_ = structure_.transpose() * compliance.asDiagonal() * structure_;
   }
 
-  /// How well an assignment of motors and encoders to strings explains the answers: the correlation
+  /// Rates how well an assignment of motors and encoders to strings explains the answers by the
+  /// correlation
   ///   Σⱼ |Σᵢ answer(j, i) expected(encoder j, motor i)| / (‖answer‖ ‖expected‖)
   /// over all encoders j and motors i that are not silent. Each encoder has the sign that fits
   /// better. Every fault has a small cost, so that the simpler one of two equally good explanations
@@ -125,7 +126,8 @@ class Judge {
     return e;
   }
 
-  /// Expected answers of encoder j, not reversed, to a pull of each motor; zero for silent motors.
+  /// The expected answers of encoder j, not reversed, to a pull of each motor; zero for silent
+  /// motors.
   StringVector expected_answers(const Explanation& e, size_t j) const {
     StringVector expected = StringVector::Zero();
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {
@@ -146,7 +148,7 @@ class Judge {
     return faults;
   }
 
-  /// Motors whose answers do not match their strings in direction or size.
+  /// Finds motors whose answers do not match their strings in direction or size.
   std::array<bool, kMaxStrings> find_unclear(const Explanation& e) const {
     std::array<bool, kMaxStrings> unclear{};
     std::array<double, kMaxStrings> size{};

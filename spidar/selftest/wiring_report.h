@@ -14,63 +14,63 @@
 
 namespace spidar::selftest {
 
-/// One channel of the board.
 struct WiringChannel {
-  int motor_string = -1;  ///< which string of the profile the motor pulls; −1: it does nothing
+  /// The string of the profile that the motor pulls; −1: the motor does nothing.
+  int motor_string = -1;
   bool motor_reversed = false;
-  int encoder_string = -1;  ///< which string the encoder reads; −1: it stands still
+  int encoder_string = -1;  ///< the string that the encoder reads; −1: the encoder stands still
   bool encoder_reversed = false;
-  /// The answers to this motor's pulls are not those of one motor alone: the hand moved, they
-  /// differed from pull to pull, or no motor of this device can cause them.
+  /// The answers to this motor's pulls are not those of one motor alone: the hand moved, the
+  /// answers differed from pull to pull, or no motor of this device can cause them.
   bool unclear = false;
 };
 
 struct WiringReport {
   int count = 0;
   std::array<WiringChannel, kMaxStrings> channel{};
-  /// Correlation of the answers with those expected for this wiring, 0 … 1.
+  /// The correlation of the answers with those expected for this wiring, 0 … 1.
   double correlation = 0;
 
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
-  /// The correlation is sufficient, and so is that of each motor's answers, in direction and size.
+  /// Whether the correlation is sufficient, and so is that of each motor's answers, in direction
+  /// and size.
   bool understood() const noexcept;
-  /// The wiring is that of the profile.
   bool as_profile() const noexcept;
-  /// A profile can describe the wiring: it differs in signs, and in strings that are at other
-  /// channels, motor and encoder together.
+  /// Whether a profile can describe the wiring: the wiring differs only in signs, and in strings
+  /// that are at other channels, motor and encoder together.
   bool fixable() const noexcept;
 };
 
-/// Explains the answers by as few exchanged or reversed channels as will do.
+/// Explains the answers by as few exchanged or reversed channels as possible.
 ///
 /// A grip that a hand holds with compliance C moves by C W e_i ΔT when motor i pulls ΔT more, and
 /// the strings get longer by −Wᵀ times that (W: structure matrix at the centre). The change of
 /// lengths is known except for C, which is assumed to be the same in all directions, with a
 /// fraction of rotation that is tried out. The search for the wiring whose expected answers
-/// correlate best with those measured starts at the profile's, and exchanges two motors, two
-/// encoders or both.
+/// correlate best with the measured ones starts at the profile's wiring, and exchanges two motors,
+/// two encoders or both.
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 
-/// The profile with the signs that were found, and with its strings in the order of the channels.
-/// Where strings or encoder signs change, the new profile loses the calibration, and is to be
-/// calibrated again. `how` is for the provenance. Throws std::invalid_argument when the report is
-/// not fixable().
+/// Returns the profile with the measured signs, and with its strings in the order of the channels.
+/// Where strings or encoder signs change, the new profile loses the calibration, and must be
+/// calibrated again. `how` describes the provenance. Throws std::invalid_argument when the report
+/// is not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
-/// How often test_wiring() asks: a moving hand makes other strings unclear each time, a wrong wire
-/// the same ones.
+/// How often test_wiring() measures: a moving hand makes other strings unclear each time, a wrong
+/// wire the same ones.
 constexpr int kWiringTries = 3;
 
 /// Runs ask_wiring() and judge_wiring(); the report is not valid if the answers are not complete.
-/// As long as it is not understood and something has moved, up to kWiringTries times in all, calls
-/// `repeat` while all tensions are zero, and asks again the motors that are unclear, or all if none
-/// is. Throws DeviceError like ask_wiring().
+/// As long as the report is not understood() and something has moved, up to kWiringTries times in
+/// all, calls `repeat` while all tensions are zero, and measures the unclear motors again, or all
+/// if none is unclear. Throws DeviceError like ask_wiring().
 std::pair<WiringAnswers, WiringReport> test_wiring(
     StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
     const std::function<void(const WiringReport&)>& repeat = {});
 
-/// Text like " 2, 5": the motors whose answers are unclear.
+/// Returns a text such as " 2, 5": the motors whose answers are unclear.
 std::string unclear_motors(const WiringReport& report);
 
 }  // namespace spidar::selftest

@@ -17,7 +17,6 @@
 namespace spidar {
 namespace {
 
-/// What is the same for all devices of this kind.
 void describe(DeviceInfo& board, const DeviceKind& kind) {
   if (board.name.empty()) board.name = kind.title;
   if (board.note.empty()) board.note = kind.note;
@@ -36,7 +35,6 @@ DeviceInfo simulation(const std::string& device, const DeviceKind* kind) {
   return board;
 }
 
-/// Everything that the name alone determines.
 DeviceInfo of_name(const std::string& device) {
   const DeviceName name(device);
   const DeviceKind* const simulated = simulated_kind(name);
@@ -80,7 +78,6 @@ std::vector<DeviceInfo> list_usb(const DeviceKind& kind) {
   return boards;
 }
 
-/// Those of this kind that are plugged in.
 void add_plugged_in(const DeviceKind& kind, std::vector<DeviceInfo>& boards) {
   for (DeviceInfo& board : kind.list ? kind.list() : list_usb(kind)) {
     describe(board, kind);
@@ -111,7 +108,7 @@ std::string default_profile(const std::string& device) {
 DeviceInfo board_info(const std::string& device) {
   const DeviceName name(device);
   const auto kinds = kinds_called(name.device);
-  const std::string id = name.rest.substr(0, name.rest.find(','));  // options follow
+  const std::string id = name.rest.substr(0, name.rest.find(','));  // options follow the comma
   // Only kinds with this name are listed.
   std::vector<DeviceInfo> boards;
   for (const DeviceKind* kind : kinds) add_plugged_in(*kind, boards);
@@ -129,7 +126,7 @@ DeviceInfo board_info(const std::string& device) {
   }
   if (id.empty() && of_kind == 1) return *only;
   if (of_kind == 1 && only->has_strings && !only->usb_id.empty() && rotary_of(id) >= 0) {
-    // The rotary switch is read when the board is opened.
+    // Only opening the board reads the rotary switch.
     DeviceInfo board = *only;
     board.device = device;
     return board;
@@ -145,7 +142,7 @@ DeviceInfo board_info(const std::string& device) {
 
 namespace {
 
-/// DeviceKind::chosen_as; empty for simulations, too.
+/// Returns DeviceKind::chosen_as; for a simulation, an empty text.
 std::string chosen_as(const DeviceInfo& board) {
   const auto kinds = kinds_called(DeviceName(board.device).device);
   return kinds.empty() ? "" : kinds[0]->chosen_as;

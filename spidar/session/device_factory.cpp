@@ -27,7 +27,7 @@ std::string known_names(bool with_elements) {
   return names;
 }
 
-/// What people call their device, and how it is named here.
+/// What people call their device, and the name of that device here.
 constexpr std::pair<const char*, const char*> kWords[] = {
     {"gamepad", "ff"},
     {"joystick", "ff"},
@@ -46,7 +46,7 @@ std::string meant_device(const std::string& device) {
   return meant(device, names);
 }
 
-/// What to write for a word of kWords; else empty.
+/// Returns the name for a word of kWords; else an empty text.
 std::string called_here(const std::string& word) {
   for (const auto& [called, name] : kWords) {
     if (word == called) {
@@ -57,7 +57,7 @@ std::string called_here(const std::string& word) {
   return {};
 }
 
-/// A kind of device without saying which one: what is plugged in.
+/// The error for a kind of device without saying which device: lists those that are plugged in.
 DeviceError unclear(const DeviceKind& kind) {
   const std::string names = kind.names;
   std::string there;
@@ -77,7 +77,7 @@ std::string simulated_names() {
   return names;
 }
 
-/// Calls `make`, in which std::invalid_argument means that there is no such mechanics.
+/// Calls `make`, whose std::invalid_argument means that such mechanics do not exist.
 template <typename Make>
 auto simulating(const std::string& text, const Profile& profile, const Make& make) {
   try {
@@ -99,7 +99,6 @@ boards::Settings settings_for(const std::string& text, const Profile& profile,
   return settings;
 }
 
-/// Either of the two.
 struct MadeDevice {
   std::unique_ptr<StringDevice> strings;
   std::unique_ptr<boards::ForceLink> force;
@@ -143,7 +142,7 @@ MadeDevice make(const std::string& text, const Profile& profile, const boards::S
   const std::string called = called_here(text);
   if (!called.empty()) throw DeviceError(called, DeviceErrorCode::kSettings);
   if (kinds.empty() || !name.has_end) {
-    // Only an element does without a device, or chooses one: this is not asked about these names.
+    // Only the element knows these names, for no device and for an automatic choice.
     const bool is_elements = text == "none" || text == "auto";
     throw DeviceError(
         (is_elements ? "\"" + text + "\" is not a device"

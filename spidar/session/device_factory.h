@@ -40,8 +40,8 @@ std::unique_ptr<Grip> make_grip(const std::string& spec, const Profile& profile,
 /// Makes the device "sim". Throws DeviceError as above.
 std::unique_ptr<SimulatedDevice> make_simulation(const Profile& profile);
 
-/// Makes a device that takes volts and gives counts of the strings. Throws DeviceError as above,
-/// and for a device that takes a force, which has no strings.
+/// Makes a device that takes volts and returns counts of strings. Throws DeviceError as above, and
+/// for a device that takes a force, which has no strings.
 std::unique_ptr<StringDevice> make_device(const std::string& spec, const Profile& profile,
                                           const boards::Settings& settings = {});
 

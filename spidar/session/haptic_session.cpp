@@ -12,8 +12,8 @@
 
 namespace spidar {
 
-// Members are destroyed in reverse order: the thread has brought the motors to zero before the
-// trace takes its last row, and the memory what was taken last.
+// Members are destroyed in reverse order: the thread sets the motors to zero before the trace takes
+// its last row and the memory its last vibration.
 struct HapticSession::Impl {
   Impl(std::unique_ptr<Grip> grip, const SessionSettings& settings)
       : loop(std::move(grip), settings.limits) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Runs a device: the loop, its thread, and the trace file. This is the class that a player uses.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +21,20 @@ namespace spidar {
 struct SessionSettings {
   SafetyLimits limits;
   bool threaded = true;   ///< false: the owner calls loop().tick()
-  bool real_time = true;  ///< ask for real-time priority; works without
+  bool real_time = true;  ///< requests real-time priority, but also works without
 };
 
 class HapticSession {
  public:
-  /// Opens the grip and starts the loop. Throws DeviceError.
+  /// Opens the grip and starts the loop. Throws DeviceError. A player uses a device through this
+  /// class: the loop, its thread, and the trace file.
   explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
   /// Makes a session with a grip on the strings of this device. Throws std::invalid_argument when
   /// the profile has fewer than six strings.
   HapticSession(const Profile& profile, std::unique_ptr<StringDevice> device,
                 const SessionSettings& settings = {});
-  /// Ramps to rest, then to zero, and closes the device, within some 60 ms. Without a thread, the
-  /// ticks of the ramp run immediately, a millisecond apart in the loop's time.
+  /// Ramps to zero and closes the device, within some 60 ms. Without a thread, the ticks of the
+  /// ramp run immediately, a millisecond apart in the loop's time.
   ~HapticSession();
 
   HapticLoop& loop() noexcept;
@@ -48,10 +48,10 @@ class HapticSession {
   const LoopTiming& timing() const noexcept;
 
   /// Begins a trace: CSV, one row a tick, from the first tick on if the loop still stores it. One
-  /// for each session. Throws std::runtime_error when it cannot be written.
+  /// trace for each session. Throws std::runtime_error when the file cannot be written.
   void begin_trace(const std::string& path);
-  /// Writes the trace up to the last tick; with a thread this happens by itself. The trace consumes
-  /// the loop's records: pop_record() is for sessions without a trace.
+  /// Writes the trace up to the last tick, as the thread does by itself. The trace consumes the
+  /// loop's records: pop_record() is for sessions without a trace.
   void drain_trace() noexcept;
   /// The status of the trace, if there is one. Does not wait for the file.
   LineWriter::Status trace_status() const noexcept;
@@ -59,7 +59,6 @@ class HapticSession {
   /// Why VibrationMemory::of_user() cannot be used; empty if it can.
   std::string vibration_error() const;
 
-  /// CLOCK_MONOTONIC, nanoseconds.
   static int64_t monotonic_now_ns() noexcept;
 
  private:

@@ -36,7 +36,7 @@ std::string key_of(const std::string& usb_id, const std::string& serial) {
   return usb_id + " " + serial;
 }
 
-/// Empty when there is no file. Throws ProfileError when it cannot be read.
+/// Returns an empty table when there is no file. Throws ProfileError when the file cannot be read.
 toml::table remembered_boards(const fs::path& file) {
   std::error_code error;
   if (file.empty() || !fs::exists(file, error)) return {};
@@ -95,7 +95,7 @@ std::string without_profile(const DeviceInfo& board) {
 
 namespace {
 
-/// Throws DeviceError for a board that is not there, whose profile is not the question then.
+/// Throws DeviceError for a board that is not there; its profile does not matter then.
 void require_plugged_in(const std::string& device) {
   const DeviceName name(device);
   const auto kinds = kinds_called(name.device);
@@ -113,9 +113,10 @@ void require_plugged_in(const std::string& device) {
   }
 }
 
-/// The kinds that a board may be of: a CyVerse board that is not plugged in may be of either.
+/// Returns the kinds that a board may be of: a CyVerse board that is not plugged in may be of
+/// either.
 std::vector<const DeviceKind*> kinds_of(const DeviceInfo& board) {
-  if (board.name.empty()) return {};  // no device is called so
+  if (board.name.empty()) return {};  // no device has this name
   std::vector<const DeviceKind*> kinds = kinds_called(DeviceName(board.device).device);
   const auto is_other = [&](const DeviceKind* kind) {
     return !board.profile_board.empty() && kind->profile_board != board.profile_board;
@@ -124,7 +125,7 @@ std::vector<const DeviceKind*> kinds_of(const DeviceInfo& board) {
   return kinds;
 }
 
-/// Why the board cannot be driven with the profile; empty if it can.
+/// Returns why the board cannot be driven with the profile; empty if it can.
 std::string why_not(const DeviceInfo& board, const Profile& profile) {
   std::string names, why;
   for (const DeviceKind* kind : kinds_of(board)) {
@@ -173,7 +174,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
   const std::string usual = default_profile(device);
   if (!usual.empty()) return load_profile(named.empty() ? usual : named);
   const DeviceInfo board = board_info(device);
-  // Its error says how such a board is named.
+  // The error says how such a board is named.
   if (board.name.empty()) make_device(device, load_profile(kDefaultProfile));
   if (named.empty() && board.profile.empty()) {
     require_plugged_in(device);
@@ -181,7 +182,7 @@ Profile profile_for(const std::string& device, const std::string& named) {
   }
   Profile profile = load_profile(named.empty() ? board.profile : named);
   const std::string why = why_not(board, profile);
-  // None fits a board whose name is not right.
+  // A board whose name is wrong fits no profile.
   if (!why.empty()) {
     throw DeviceError(fitting_profiles(board).empty() ? why : why + ". " + fitting_text(board),
                       DeviceErrorCode::kSettings);

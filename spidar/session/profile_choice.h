@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// Which profile drives a device.
 ///
-/// A profile that is wrong gives other forces than wanted, and may pull where it should let go:
+/// A wrong profile exerts other forces than wanted, and may pull where it should release, because
 /// boards do not report which frame, motors and encoders are connected to them. So the motors of a
 /// board get no force before somebody has named a profile for it, now or once with `spidarctl
 /// choose`.
@@ -23,20 +23,20 @@ namespace spidar {
 /// variable is set.
 std::filesystem::path remembered_profiles_file();
 
-/// The profile that store_profile() last stored for the board with this USB ID and serial
-/// number; empty if nothing. Throws ProfileError when the file cannot be read.
+/// The profile that store_profile() last stored for the board with this USB ID and serial number;
+/// empty if none. Throws ProfileError when the file cannot be read.
 std::string remembered_profile(const std::string& usb_id, const std::string& serial);
 
-/// Stores the profile for the board with this USB ID and serial number; a path is kept as an
-/// absolute one. Throws ProfileError if the file cannot be read, and as replace_file() does.
+/// Stores the profile for the board with this USB ID and serial number; a relative path becomes
+/// absolute. Throws ProfileError if the file cannot be read, and as replace_file() does.
 void store_profile(const std::string& usb_id, const std::string& serial,
                    const std::string& profile);
 
 /// Says that nobody has named a profile for this board, and lists those that fit it.
 std::string without_profile(const DeviceInfo& board);
 
-/// The names of the profiles that fit a board: it can drive them, and their source names a board of
-/// its kind or none. Profiles that cannot be read are left out. Opens nothing.
+/// The names of the profiles that fit a board: the board can drive them, and their source names a
+/// board of its kind or none. Profiles that cannot be read are left out. Opens nothing.
 std::vector<std::string> fitting_profiles(const DeviceInfo& board);
 
 /// A sentence, without its full stop, that lists the fitting profiles.
@@ -45,9 +45,9 @@ std::string fitting_text(const DeviceInfo& board);
 /// Whether make_device() accepts the profile for this device. Opens nothing.
 bool can_drive(const std::string& device, const Profile& profile);
 
-/// Loads the profile `named`, which is a name or a path as for load_profile(). If it is empty,
-/// loads that of DeviceInfo::profile. Throws DeviceError if that is empty, too, when the profile
-/// does not fit the board, or when there is no such device, and ProfileError.
+/// Loads the profile `named`, which is a name or a path as for load_profile(). If `named` is empty,
+/// loads DeviceInfo::profile. Throws DeviceError if both are empty, when the profile does not fit
+/// the board, or when there is no such device, and ProfileError.
 Profile profile_for(const std::string& device, const std::string& named);
 
 /// Why the profile `named` may be wrong: another one was confirmed for this board. Empty if not.

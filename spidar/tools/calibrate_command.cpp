@@ -33,8 +33,8 @@ constexpr double kSamplePeriod_s = 0.002;
 
 struct CalibrateOptions : DeviceOptions {
   bool centre = false;
-  std::optional<double> seconds;  ///< of moving; none: not named
-  std::string free;               ///< empty, exits, scale or exits,scale
+  std::optional<double> seconds;  ///< how long to move the grip; none: not named
+  std::string free;               ///< empty, "exits", "scale" or "exits,scale"
   OutputFile output;
 
   double move_s() const { return seconds.value_or(20); }
@@ -94,15 +94,15 @@ class Progress {
 
  private:
   double seconds_;
-  bool is_terminal_;  ///< which has one line for it
+  bool is_terminal_;  ///< a terminal shows the progress in one line
   int last_ = -1;
 };
 
-/// False, with a message, when it is not as in the profile, or when interrupted.
+/// Returns false, with a message, when the wiring differs from the profile, or when interrupted.
 bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
   bool told = false;
   const selftest::Pace pace = [&, next = every_millisecond()] {
-    // Only now is the device open.
+    // Only an open device can be described.
     if (!std::exchange(told, true)) {
       std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the "
                    "other.\n";
@@ -131,7 +131,7 @@ calibration::CountSamples record(const CalibrateOptions& options, const Profile&
   std::optional<double> begin_s;
   const auto next_tick = [&](double time_s) {
     if (!begin_s) {
-      // Only now is the device open.
+      // Only an open device can be described.
       std::cerr
           << (options.centre
                   ? std::string("Hold the grip still at the centre, without turning it.\n")
@@ -159,7 +159,6 @@ std::string triple(const Eigen::Vector3d& value, const char* pattern) {
   return text;
 }
 
-/// Its name, and what to do about it.
 std::pair<const char*, const char*> text_of(calibration::Status status) {
   switch (status) {
     case calibration::Status::kSolved:

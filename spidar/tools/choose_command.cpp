@@ -16,13 +16,13 @@
 namespace spidar::tools {
 namespace {
 
-/// Whether a line, or its end, waits on the standard input.
+/// Whether a line, or the end of the file, waits on the standard input.
 bool is_line_there() {
   pollfd input{STDIN_FILENO, POLLIN, 0};
   return poll(&input, 1, 0) > 0;
 }
 
-/// The counts when the person has pressed Enter. False when interrupted.
+/// Reads the counts when the person has pressed Enter. Returns false when interrupted.
 bool read_when_there(selftest::StringHold& hold, const std::string& question,
                      EncoderScale::Counts& counts) {
   forget_typed_ahead();
@@ -38,7 +38,6 @@ bool read_when_there(selftest::StringHold& hold, const std::string& question,
   return whole;
 }
 
-/// False when interrupted.
 bool move_by_hand(ChosenDevice& chosen, selftest::HandMoves& moves) {
   moves.distance_m = selftest::hand_move_m(chosen.profile.geometry);
   selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());

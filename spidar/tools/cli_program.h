@@ -40,15 +40,15 @@ inline void check_command(const CLI::App& program, int argc, char** argv) {
   throw UsageError(std::string(argv[1]) + " is not a command; commands are " + known);
 }
 
-/// The command line of the help that explains what was wrong.
+/// The command line of the help that explains the error.
 inline std::string help_of(const CLI::App& program) {
   std::string command = program.get_name();
   for (const CLI::App* given : program.get_subcommands()) command += ' ' + given->get_name();
   return command + " --help";
 }
 
-/// The exit status of `run`, which parses the command line and may throw. Prints the help, the
-/// version, or what was wrong, with what is printed itself.
+/// Returns the exit status of `run`, which parses the command line and may throw. Prints the help,
+/// the version or the error.
 inline int exit_status_of(const CLI::App& program, const std::function<int()>& run) {
   const std::string& name = program.get_name();
   try {

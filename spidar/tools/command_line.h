@@ -24,8 +24,8 @@ class UsageError : public std::runtime_error {
 };
 
 /// The exit status of a program that has printed to the standard output: `status`, or kFailed
-/// instead of kDone if the output has not arrived, on a full disk for example. Says so, unless the
-/// reader of a pipe has left.
+/// instead of kDone if the output has not arrived, for example on a full disk. Prints an error
+/// then, unless the reader of a pipe has left.
 inline int status_after_printing(const std::string& program, int status) {
   errno = 0;
   std::cout.flush();

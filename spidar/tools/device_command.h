@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the commands of spidarctl have in common: the program, the device on which one works, and
-/// the person at the terminal.
+/// The common parts of the commands of spidarctl: the program, the device, and the person at the
+/// terminal.
 #pragma once
 
 #include <future>
@@ -25,8 +25,8 @@ struct Program {
   int status = kDone;  ///< of the command that ran
 };
 
-/// `run` is called when the command line has been parsed, and returns the exit status. It throws
-/// UsageError, DeviceError and ProfileError. What is returned lives as long as the program.
+/// Adds a command. After parsing, `run` is called and returns the exit status; it may throw
+/// UsageError, DeviceError and ProfileError. The returned object lives as long as the program.
 template <typename Options>
 std::pair<CLI::App&, Options&> add_command(Program& program, const char* name,
                                            const char* description, int (*run)(const Options&)) {
@@ -36,7 +36,6 @@ std::pair<CLI::App&, Options&> add_command(Program& program, const char* name,
   return {*app, *options};
 }
 
-// Each adds one command.
 void add_list(Program& program);
 void add_info(Program& program);
 void add_monitor(Program& program);
@@ -46,52 +45,48 @@ void add_choose(Program& program);
 void add_selftest(Program& program);
 void add_calibrate(Program& program);
 
-/// Arguments of every command that opens a device, and flags of most of them.
 struct DeviceOptions {
   std::string device;
   std::string profile;  ///< empty: the default profile of the board
   bool json = false, yes = false;
 };
 
-/// Adds DEVICE and --profile.
 void add_device(CLI::App& app, DeviceOptions& options);
 void add_json(CLI::App& app, bool& json);
 /// Adds --yes, for commands that pull or push.
 void add_yes(CLI::App& app, bool& yes);
 /// Adds --seconds, for commands that otherwise run until they are interrupted.
 void add_seconds(CLI::App& app, double& seconds);
-/// A file that a command writes.
 struct OutputFile {
   std::string path;  ///< empty: none
   bool force = false;
 
   explicit operator bool() const noexcept { return !path.empty(); }
-  /// Throws ProfileError when the file cannot be written, or exists and may not be replaced. To be
-  /// called before the device moves, so that it does not move in vain.
+  /// Throws ProfileError when the file cannot be written, or exists and may not be replaced. Call
+  /// this before the device moves, so that it does not move in vain.
   void check() const;
 };
 /// Adds an option whose value is the file's name, and --force.
 CLI::Option* add_output(CLI::App& app, const std::string& name, OutputFile& file,
                         const std::string& description);
-/// The same as add_output(), for a profile.
 void add_profile_file(CLI::App& app, const std::string& name, OutputFile& file,
                       const std::string& description);
 
 /// What a command does with the motors.
 enum class Motors {
-  kOff,     ///< they stay at zero, so no profile is needed
-  kZeroed,  ///< they are set to zero, and no profile may stand in the way, named or remembered
+  kOff,     ///< the motors stay at zero, so no profile is needed
+  kZeroed,  ///< the motors are set to zero, and no named or remembered profile may prevent that
   kPulled,  ///< a real board needs a profile that somebody named
 };
 
 struct ChosenDevice {
   DeviceInfo board;
-  /// A profile without a name if nobody has named one: it only says how many strings can be read,
-  /// and allows no tension.
+  /// Without a name if nobody has named a profile: this profile only says how many strings can be
+  /// read, and allows no tension.
   Profile profile;
-  // One of these, not open yet.
-  std::unique_ptr<StringDevice> device;  ///< one that has strings
-  std::unique_ptr<Grip> grip;            ///< one that has none
+  // One of these is set, and not open yet.
+  std::unique_ptr<StringDevice> device;  ///< a device with strings
+  std::unique_ptr<Grip> grip;            ///< a device without strings
 
   const std::string& name() const noexcept { return device ? device->name() : grip->name(); }
 };
@@ -100,11 +95,11 @@ struct ChosenDevice {
 ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
                            boards::CountZero count_zero = boards::CountZero::kByProfile);
 
-/// Throws DeviceError when the board has no strings; its message says that `command` needs them.
+/// Throws DeviceError when the board has no strings; the message says that `command` needs them.
 void require_strings(const DeviceInfo& board, const std::string& command);
 
-/// Whether the device can output negative volts. Boards that output positive volts only refuse such
-/// a profile.
+/// Whether the device can output negative volts. Boards with positive volts only refuse such a
+/// profile.
 bool can_reverse(const std::string& device, Profile profile);
 
 /// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(), so that the strings are released
@@ -112,12 +107,12 @@ bool can_reverse(const std::string& device, Profile profile);
 void catch_signals();
 bool interrupted();
 
-/// Waits until a millisecond after the last call, or not at all if that has passed; returns false
-/// when interrupted.
+/// Waits until a millisecond after the last call, or not at all if that time has passed; returns
+/// false when interrupted.
 selftest::Pace every_millisecond();
 
-/// Runs `work`, which moves a device, as the haptic loop runs, with real-time priority where that
-/// is permitted. Returns or throws what `work` does. A guardian allows no pause of more than
+/// Runs `work`, which moves a device, as the haptic loop runs, with real-time priority where
+/// permitted. Returns or throws what `work` does. A guardian allows no pause of more than
 /// kSilence_ms.
 template <typename Work>
 auto in_real_time(const Work& work) {
@@ -131,15 +126,15 @@ auto in_real_time(const Work& work) {
   return result.get();
 }
 
-/// To be called before a question is printed: discards what was typed on a terminal before, which
-/// is no answer to it. Input from a pipe is not typed, and stays.
+/// Discards what was typed on a terminal before, which cannot answer the next question. Input from
+/// a pipe stays. Call this before printing a question.
 void forget_typed_ahead();
 
-/// Returns true when the answer is yes. Throws UsageError when standard input is not a terminal.
+/// Returns whether the answer is yes. Throws UsageError when standard input is not a terminal.
 bool confirm(const std::string& question);
 
-/// Whether the device may be moved: it is simulated, `yes` was given, or the answer is yes. Says
-/// that nothing moved if not.
+/// Whether the device may be moved: the device is simulated, `yes` was given, or the answer is yes.
+/// Otherwise says that nothing moved.
 bool may_move(const std::string& device, bool yes, const std::string& question);
 
 }  // namespace spidar::tools

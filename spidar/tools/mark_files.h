@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Files whose names look like options.
 #pragma once
 
 #include <cstring>
@@ -12,7 +11,7 @@
 namespace spidar::tools {
 
 /// Puts "./" before names of files that begin with a dash, so that they are not taken for options:
-/// what has a point in it, and is there. What follows "--" may be properties.
+/// the name has a point, and the file exists. Arguments after "--" may be properties.
 inline void mark_files(int argc, char** argv, bool has_properties_last = true) {
   static std::deque<std::string> marked;  // lives as long as argv
   for (int i = 1; i < argc; ++i) {

@@ -36,8 +36,8 @@ const char* pose_name(PoseStatus status) {
   return "";
 }
 
-/// Lengths and pose, as the haptic loop computes them. Of a board for which nobody has named a
-/// profile, the counts.
+/// Shows lengths and pose, as the haptic loop computes them. For a board without a named profile,
+/// shows the counts.
 class Monitor {
  public:
   Monitor(const Profile& profile, bool json)
@@ -114,8 +114,8 @@ class Monitor {
   int64_t readings_ = 0;
 };
 
-/// How the board has answered, for the people who write its driver. Nothing of a device without a
-/// link.
+/// Prints how the board has answered, for the people who write its driver. Prints nothing for a
+/// device without a link.
 void print_link(const LinkHealth& health) {
   if (health.round_trip_max_ns == 0) return;
   std::cerr << formatted(
@@ -149,7 +149,7 @@ int monitor(const MonitorOptions& options) {
   if (options.taut) hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s);
   hold.stay(options.seconds, [&](const DeviceReading& reading) {
     monitor.show(reading);
-    return std::cout.good();  // a full disk ends it
+    return std::cout.good();  // a full disk ends the command
   });
   hold.release();
   print_link(chosen.device->health());

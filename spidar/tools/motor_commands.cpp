@@ -43,7 +43,6 @@ constexpr double kMaxPull_N = 5;
 constexpr double kMaxPull_Ns = 5;
 constexpr double kMaxPull_s = 10;
 
-/// Duration of each ramp, up and down.
 constexpr double kRamp_s = 0.1;
 
 /// Throws UsageError when the profile does not allow this pull, or a hand should not get it.
@@ -112,8 +111,8 @@ void print(const PullOptions& pull, int strings, const Lengths& lengths) {
   std::cout << " mm\n";
 }
 
-/// Why this was no pull; empty if the strings have answered. At its smallest tension, a string is
-/// not pulled more than before.
+/// Returns why this was no pull; empty if the strings have answered. A string at its smallest
+/// tension is pulled no more than before.
 std::string silence_of(const PullOptions& pull, const Profile& profile, const Lengths& lengths) {
   if (pull.tension_N <= profile.drives[static_cast<size_t>(pull.string)].min_tension_N) return {};
   const StringVector change_m = lengths.change_m();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Shows the pulls of `selftest` and `calibrate` while they are made.
 #pragma once
 
 #include <atomic>
@@ -14,8 +13,8 @@
 
 namespace spidar::tools {
 
-/// Prints what each pull has moved as soon as it is over, in a thread of its own, so that the
-/// thread that pulls does not wait for a terminal.
+/// Shows the pulls of `selftest` and `calibrate`: prints what each pull has moved as soon as it is
+/// over, in a thread of its own, so that the thread that pulls does not wait for a terminal.
 class PullRows {
  public:
   explicit PullRows(int strings) : thread_([this, strings] { print(strings); }) {}
@@ -34,7 +33,7 @@ class PullRows {
     for (int told = 0;;) {
       const bool ends = ends_;
       for (selftest::PulledMotor row; pulled_.pop(row);) {
-        // Those that are unclear are pulled again.
+        // Unclear strings are pulled again, so there may be more rows than strings.
         std::cerr << (++told <= strings ? formatted("pulled %d of %d", told, strings)
                                         : std::string("pulled again"))
                   << formatted(": motor %d, own length %+.2f mm%s\n", row.motor,

@@ -17,7 +17,7 @@
 namespace spidar::tools {
 namespace {
 
-/// What is listed, as JSON, which the text is made of, too.
+/// The list as JSON, from which the text is made, too.
 Json found_devices() {
   Json devices = Json::array(), lines = Json::array(), profiles = Json::array();
   for (const DeviceInfo& board : list_boards()) {
@@ -66,7 +66,7 @@ int list(const bool& as_json) {
   }
   for (const Json& board : devices) {
     const std::string serial = text_of(board, "serial"), note = text_of(board, "note");
-    // Boards with strings have none but that which was confirmed.
+    // For a board with strings, the only profile is the one that was confirmed.
     const bool is_chosen = board.value("has_strings", false) && !serial.empty();
     const std::string profile = is_chosen ? text_of(board, "profile") : "";
     std::cout << "  " << std::left << std::setw(12) << text_of(board, "device") << "  "
@@ -92,12 +92,12 @@ int list(const bool& as_json) {
 
 struct FoundBoard {
   DeviceReading reading;       // of a device with strings
-  Eigen::Vector3d position_m;  // of a device without; not numbers while it is not known
+  Eigen::Vector3d position_m;  // of a device without strings; NaN while unknown
   LinkHealth health;
-  std::string description;  // reported by the open device
+  std::string description;  // what the open device reports
 };
 
-/// False when nothing was read.
+/// Returns false when nothing was read.
 bool read_strings(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
   selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
@@ -132,7 +132,7 @@ FoundBoard read(ChosenDevice& chosen) {
   return found;
 }
 
-/// Of a board for which nobody has named a profile.
+/// Prints the counts of a board for which nobody has named a profile.
 void print_counts(const ChosenDevice& chosen, const FoundBoard& found) {
   std::cout << "profile   none, so its motors get no force; those that fit it:";
   for (const std::string& name : fitting_profiles(chosen.board)) std::cout << ' ' << name;
@@ -240,7 +240,7 @@ Json json_of(const ChosenDevice& chosen, const FoundBoard& found) {
 }
 
 int info(const DeviceOptions& options) {
-  // Shows the counts as the board gives them, without a new zero.
+  // The counts are shown as the board gives them, without a new zero.
   ChosenDevice chosen = choose_device(options, Motors::kOff, boards::CountZero::kNever);
   catch_signals();
   const FoundBoard found = read(chosen);

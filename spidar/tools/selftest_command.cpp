@@ -29,7 +29,7 @@ struct SelftestOptions : DeviceOptions {
   bool lag = false;
 };
 
-/// `lag`: what was measured of the drives, if it was.
+/// `lag` has the measurement of the drives, if there was one.
 void write(const SelftestOptions& options, const Profile& profile,
            const selftest::WiringReport& report, const std::optional<selftest::LagVerdict>& lag) {
   if (!report.fixable()) {
@@ -61,7 +61,7 @@ const char* side_of(double moved_m) {
 
 constexpr std::array<const char*, 3> kSides{"right  ", "up     ", "forward"};
 
-/// Directions of a device that takes a force.
+/// Tests the directions of a device that takes a force.
 int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const bool stick = is_stick(options.device);
   if (!may_move(options.device, options.yes,
@@ -95,8 +95,8 @@ int test_push_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return right ? kDone : kFailed;
 }
 
-/// A pulse in each direction, or one if there is only a strength. Returns what the device says of
-/// itself then; nothing when it was interrupted.
+/// Gives a pulse in each direction, or one if the device only has a strength. Returns the device's
+/// description; nothing when interrupted.
 std::optional<std::string> pulse(Grip& grip, double push_N) {
   constexpr double kRise_s = 0.05, kPulse_s = 0.5;
   const GripAbilities can = grip.abilities();
@@ -116,8 +116,8 @@ std::optional<std::string> pulse(Grip& grip, double push_N) {
   return whole ? std::optional(grip.description()) : std::nullopt;
 }
 
-/// A device that does not report its position, or only rumbles: whether these are felt, and where,
-/// only a person knows.
+/// For a device that only rumbles or does not report its position: only a person knows whether and
+/// where the pulses are felt.
 int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
   const double push_N = chosen.grip->abilities().largest_force_N / 2;
   if (!may_move(options.device, options.yes,
@@ -135,7 +135,7 @@ int pulse_command(const SelftestOptions& options, ChosenDevice& chosen) {
   return kDone;
 }
 
-/// Whether it moves to where it is pushed, and says so. Only the open device knows.
+/// Whether the device moves where it is pushed, and reports it. Only an open device knows.
 bool answers_pushes(Grip& grip) {
   grip.open();
   const GripAbilities can = grip.abilities();
@@ -201,7 +201,7 @@ int run_selftest(const SelftestOptions& options) {
   }
   bool right = report.as_profile();
   std::optional<selftest::LagVerdict> lag;
-  // Forces that a wrong wiring would turn round are not tried.
+  // The test does not exert forces that a wrong wiring would reverse.
   if (options.lag && right) {
     const selftest::DelayTest test = shake(*chosen.device, profile);
     if (!test.complete) return interrupted_test();

@@ -25,15 +25,15 @@ namespace {
 
 std::atomic<bool> signalled{false};
 
-/// Few people read English faster: most 175 to 300 words a minute (M. Brysbaert, How many words do
-/// we read per minute?, 2019).
+/// Few people read English faster: most read 175 to 300 words a minute (M. Brysbaert, How many
+/// words do we read per minute?, 2019).
 constexpr int64_t kWord_ns = 60'000'000'000 / 300;
 
 int64_t reading_time_ns(const std::string& text) {
   return kWord_ns * (1 + std::count(text.begin(), text.end(), ' '));
 }
 
-/// One with which the board can be read, and no motor can be pulled.
+/// A profile with which the board can be read, but no motor can be pulled.
 Profile to_read_only(const DeviceInfo& board) {
   const std::vector<std::string> fitting = fitting_profiles(board);
   if (fitting.empty()) return profile_for(board.device, "");  // throws what is wrong
@@ -131,7 +131,7 @@ selftest::Pace every_millisecond() {
 }
 
 void forget_typed_ahead() {
-  tcflush(STDIN_FILENO, TCIFLUSH);  // fails, and does nothing, where there is no terminal
+  tcflush(STDIN_FILENO, TCIFLUSH);  // fails without a terminal, which does no harm
 }
 
 bool confirm(const std::string& question) {

@@ -36,7 +36,6 @@ const Surface* Mailbox::front(size_t nth) const noexcept {
 
 namespace {
 
-/// Whether the surface can change continuously from one frame to the other.
 bool leads_to(const Surface& before, const Surface& after) noexcept {
   return after.follows && before.has_surface && after.has_surface &&
          after.time_ns > before.time_ns && after.displacement_m.allFinite();
@@ -118,7 +117,7 @@ void Rendering::drop_cleared(Mailbox& mailbox) noexcept {
   }
 }
 
-/// Also null if the frame belongs to a generation that began after this tick.
+/// Also returns null if the frame belongs to a generation that began after this tick.
 const Surface* Rendering::frame(const Mailbox& mailbox, size_t nth) const noexcept {
   const Surface* const found = mailbox.front(nth);
   return found != nullptr && found->generation == generation_ ? found : nullptr;

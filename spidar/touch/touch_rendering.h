@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Renders the contact of the grip with the frame on the screen, and the mailbox that brings
-/// frames.
+/// Renders the contact of the grip with the frame on the screen. The mailbox brings the frames.
 #pragma once
 
 #include <algorithm>
@@ -24,8 +23,8 @@ struct Surface {
       : relief(width_m, height_m), texture(width_m, height_m) {}
 
   int64_t time_ns = 0;       ///< running time at which the frame is shown
-  bool has_surface = false;  ///< false: nothing can be touched from that time on
-  bool has_texture = false;  ///< false: `texture` is not valid
+  bool has_surface = false;  ///< if false, nothing can be touched from that time on
+  bool has_texture = false;  ///< if false, `texture` is not valid
   /// Whether `displacement_m` is the motion since the previously published frame. False after a
   /// cut, a seek, or a frame that was left out, where the motion in between is unknown.
   bool follows = false;
@@ -33,13 +32,13 @@ struct Surface {
   ContactSettings contact;  ///< valid
   HeightField relief;
   HeightField texture;
-  uint32_t generation = 0;  ///< of the mailbox when begin() was called
+  uint32_t generation = 0;  ///< of the mailbox at begin()
 };
 
 /// A wait-free single-producer, single-consumer queue that copies no frames. The writer fills a
-/// slot in place and the reader keeps the two frames it interpolates between, so at least three
-/// slots are needed. More slots allow for frames that pass the element long before they are shown,
-/// because GStreamer's queues hold some of them before the sink.
+/// slot in place and the reader keeps the two frames between which it interpolates, so at least
+/// three slots are needed. More slots allow for frames that pass the element long before they are
+/// shown, because GStreamer's queues hold some of them before the sink.
 class Mailbox {
  public:
   static constexpr size_t kMinSlots = 3;
@@ -64,7 +63,6 @@ class Mailbox {
   /// Returns the slot to fill, with its old content, or null when none is free. Pass the generation
   /// that was current when processing of the frame began.
   Surface* begin(uint32_t generation) noexcept;
-  /// Publishes the slot that begin() returned.
   void publish() noexcept;
 
   // --- reader
@@ -87,7 +85,7 @@ class Mailbox {
 /// A surface that is too stiff for the lag of the drives shakes a grip that presses on it, at 15 to
 /// 60 Hz, faster than a hand trembles. The velocity across the surface, less its slow part, then
 /// changes its sign in even intervals. A tap has two or three such intervals. While the grip
-/// strokes along the surface, the relief itself may shake it, so that this does not count.
+/// strokes along the surface, the relief itself may shake the grip, so strokes do not count.
 class ShakeWatch {
  public:
   static constexpr double kSlowest_Hz = 15;
@@ -102,7 +100,7 @@ class ShakeWatch {
   static constexpr double kLeft = 0.7;
   static constexpr double kMinFraction = 0.1;
 
-  /// A tick in contact, with the velocity of the grip and the unit normal of the surface.
+  /// Takes a tick in contact: the velocity of the grip and the unit normal of the surface.
   void update(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
               double dt_s) noexcept {
     const double across_m_s = velocity_m_s.dot(normal);
@@ -122,22 +120,22 @@ class ShakeWatch {
     fraction_ = std::max(kMinFraction, kLeft * fraction_);
   }
 
-  /// The fraction of the stiffness that is left: 1 until the grip was shaken. It does not rise
-  /// again, because the lag is that of the device.
+  /// The fraction of the stiffness that is left: 1 until the grip has shaken. The fraction does not
+  /// rise again, because the lag belongs to the device.
   double fraction() const noexcept { return fraction_; }
 
  private:
   static constexpr double kSlow_s = 0.02;  ///< 8 Hz
 
   double slow_m_s_ = 0;
-  double most_m_s_ = 0;  ///< largest since the sign changed
+  double most_m_s_ = 0;  ///< the largest since the sign changed
   double since_s_ = 0;
   bool rises_ = false;
   int intervals_ = 0;
   double fraction_ = 1;
 };
 
-/// State of the contact in one tick.
+/// The state of the contact in one tick.
 struct Contact {
   bool has_surface = false;  ///< the current frame can be touched
   bool touching = false;
@@ -145,7 +143,7 @@ struct Contact {
   /// The touched point of the surface, device frame; 0 unless touching.
   Eigen::Vector3d proxy_m = Eigen::Vector3d::Zero();
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip, device frame
-  /// Fraction of the stiffness that is left after shaking, see ShakeWatch.
+  /// The fraction of the stiffness that is left after shaking, see ShakeWatch.
   double stiffness_fraction = 1;
 };
 
@@ -156,15 +154,14 @@ struct Contact {
 /// it when that frame is due. If the frame arrives late, the transition takes at least
 /// kShortest_ns, or the interval between the two frames if that is shorter. The last frame stays
 /// until another one follows. A frame that does not continue the previous one (`follows` is false)
-/// appears when it is due, and Proxy raises it slowly from the grip. The same applies to a
-/// frame that rises under the grip faster than kRise_m_s after compensation of its displacement, as
-/// with a flash, an undetected cut, or an undetected motion.
+/// appears when it is due, and Proxy raises it slowly from the grip. The same applies to a frame
+/// that rises under the grip faster than kRise_m_s after compensation of its displacement, as with
+/// a flash, an undetected cut, or an undetected motion.
 class Rendering {
  public:
   static constexpr int64_t kShortest_ns = 15'000'000;
-  /// A longer pause between two ticks resets the contact.
   static constexpr double kLongestTick_s = 0.01;
-  /// Rate at which the stiffness approaches a new setting, so that a change causes no knock.
+  /// The rate at which the stiffness approaches a new setting, so that a change causes no knock.
   static constexpr double kStiffening_N_m_s = 1000;
 
   /// Renders a tick `dt_s` after the last. `running_ns` is the running time of the frame on the
@@ -178,15 +175,15 @@ class Rendering {
     max_force_N_ = max_force_N;
     max_slew_N_s_ = max_slew_N_s;
   }
-  /// Sets the other force of the next tick, which shares these limits.
   void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
-  /// After tick(): what the device gives for it and the other force, see touch::EnergyBudget.
+  /// Call this after tick(), with what the device exerts for the contact and the other force, see
+  /// touch::EnergyBudget.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
     contact_.deliver(given, turn_rad);
   }
 
-  /// A tick without contact, because nothing is playing or the pose of the grip is unknown.
+  /// Renders a tick without contact, because nothing is playing or the pose of the grip is unknown.
   void rest(Mailbox& mailbox) noexcept;
 
  private:
@@ -197,9 +194,10 @@ class Rendering {
   bool jumps(const MovingRelief& surface, const Eigen::Vector2d& position_m) const noexcept;
 
   uint32_t generation_ = 0;
-  bool reached_ = false;   ///< the oldest frame of the mailbox has become due
-  bool leads_on_ = false;  ///< the transition to the next frame, from_ns_ to to_ns_, has begun
-  bool jumped_ = false;    ///< a jump: the current surface stays until the next frame is due
+  bool reached_ = false;  ///< whether the oldest frame of the mailbox has become due
+  /// Whether the transition to the next frame, from_ns_ to to_ns_, has begun.
+  bool leads_on_ = false;
+  bool jumped_ = false;  ///< after a jump, the current surface stays until the next frame is due
   int64_t from_ns_ = 0;
   int64_t to_ns_ = 0;
   int64_t reached_ns_ = 0;

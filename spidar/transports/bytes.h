@@ -9,7 +9,6 @@
 
 namespace spidar {
 
-/// Bytes to read; does not own them.
 struct ByteView {
   const uint8_t* data = nullptr;
   size_t size = 0;
@@ -19,7 +18,7 @@ struct ByteView {
   template <size_t N>
   ByteView(const std::array<uint8_t, N>& bytes) : data(bytes.data()), size(N) {}
 
-  /// Zero beyond the end.
+  /// Returns zero beyond the end.
   uint8_t u8(size_t at) const noexcept { return at < size ? data[at] : uint8_t{0}; }
   uint16_t u16(size_t at) const noexcept { return static_cast<uint16_t>(u8(at) | u8(at + 1) << 8); }
   uint32_t u24(size_t at) const noexcept {
@@ -30,7 +29,7 @@ struct ByteView {
   }
 };
 
-/// Bytes to write; does not own them. Writes beyond the end are ignored.
+/// A view of bytes to write. Writes beyond the end are ignored.
 struct MutableBytes {
   uint8_t* data = nullptr;
   size_t size = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The identity of a device behind a name, so that only the same device replaces a lost one.
 #pragma once
 
 #include <optional>
@@ -13,8 +12,8 @@ namespace spidar {
 /// The identity of a device, as far as the system knows it. All texts are printable().
 struct DeviceIdentity {
   std::string model;   ///< name, vendor and product: "Logitech G29 (046d:c24f)"
-  std::string serial;  ///< empty if it has none
-  std::string place;   ///< where it is connected: a port, or an address; empty if nobody knows
+  std::string serial;  ///< empty if the device has none
+  std::string place;   ///< where the device is connected: a port, or an address; empty if unknown
 
   /// The same model and serial number or, without one, in the same place. A device with neither
   /// cannot be told from others, and is never the same.
@@ -30,17 +29,16 @@ struct DeviceIdentity {
   }
 };
 
-/// The device that was opened first. Later, the name may mean another device, to which the system
-/// has given the same number or port: one with another strength and another profile, perhaps in
-/// another hand. That device gets no force until somebody starts again, which repeats all checks of
-/// the start.
+/// The device that was opened first. Later, the system may give its number or port to another
+/// device, perhaps with another strength and profile, and in another hand. That device gets no
+/// force until the user starts again, which repeats all checks of the start.
 class FirstDevice {
  public:
   bool known() const noexcept { return first_.has_value(); }
   bool is(const DeviceIdentity& found) const { return first_ && *first_ == found; }
   std::string text() const { return first_ ? first_->text() : ""; }
 
-  /// To be called when a device has been opened: throws other() unless it is the first one.
+  /// Call this when a device has been opened: throws other() unless it is the first device.
   void require(const std::string& name, const DeviceIdentity& found) {
     if (!first_) {
       first_ = found;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The parts of an FTDI serial chip that a driver needs: a few requests without data, and the
-/// status bytes in front of what it receives.
+/// status bytes in front of received data.
 ///
-/// Source: the kernel's drivers/usb/serial/ftdi_sio.h, and libnifalcon, which names the values that
-/// its device needs.
+/// Source: the kernel's drivers/usb/serial/ftdi_sio.h, and libnifalcon, which has the values for
+/// its device.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,6 @@
 
 namespace spidar {
 
-/// A vendor request on the control pipe of a USB device, addressed to the device, without data.
 struct VendorRequest {
   uint8_t request = 0;
   uint16_t value = 0;
@@ -23,7 +22,7 @@ namespace ftdi {
 /// bmRequestType of all requests below.
 constexpr uint8_t kRequestType = 0x40;
 /// The chip puts this many bytes in front of each packet, and sends a packet of only these when its
-/// latency timer ends before anything was received.
+/// latency timer ends before data was received.
 constexpr size_t kStatusSize = 2;
 /// Largest packet of a full-speed chip, bytes.
 constexpr size_t kPacketSize = 64;
@@ -36,7 +35,7 @@ constexpr VendorRequest kDtrLow{kModemControl, 0x0100};
 constexpr VendorRequest kDtrHigh{kModemControl, 0x0101};
 constexpr VendorRequest kNoFlowControl{2, 0};
 constexpr VendorRequest kEightBits{4, 8};
-/// 3 MHz divided by the value; the two highest bits are eighths.
+/// The rate is 3 MHz divided by the value; the two highest bits are eighths.
 constexpr VendorRequest baud_divisor(uint16_t value) noexcept {
   return {kSetBaud, value};
 }

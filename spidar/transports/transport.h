@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Interface for sending bytes to a board and receiving its reply.
 #pragma once
 
 #include <algorithm>
@@ -23,10 +22,10 @@ namespace spidar {
 struct Transfer {
   LinkFault fault = LinkFault::kNone;
   size_t received = 0;  ///< bytes
-  int error = 0;        ///< errno of the kernel's driver; 0: not known
+  int error = 0;        ///< errno of the kernel's driver; 0: unknown
 };
 
-/// One connection, to be used by one thread at a time.
+/// One connection to a board, for one thread at a time.
 class Transport {
  public:
   /// How long open() waits for a connection that is in use, and the interval between attempts.
@@ -39,14 +38,15 @@ class Transport {
   /// again after close() or kGone.
   virtual void open() = 0;
 
-  /// Sends packets in order, then receives one that fills `reply`; if `reply` is empty, it only
-  /// sends. Blocks until it is done or until the deadline (CLOCK_MONOTONIC), and then returns
-  /// kTimeout. Returns kShort if fewer bytes arrive than `reply` can hold. Whatever the result, the
-  /// packets may have arrived.
+  /// Sends packets in order, then receives one that fills `reply`; if `reply` is empty, only sends.
+  /// Blocks until the exchange is complete, or until the deadline (CLOCK_MONOTONIC), and then
+  /// returns kTimeout. Returns kShort if fewer bytes arrive than `reply` can hold. Whatever the
+  /// result, the packets may have arrived.
   ///
-  /// The newest state counts: what was sent before the packets that it should answer is dropped.
-  /// Where that has no end, or where kMostUnasked more exchanges had it than had not, nobody knows
-  /// how old an answer is, and the result is kBabble.
+  /// The newest state counts: received data is dropped if it arrived before the packets went out,
+  /// because it cannot answer them. When such data does not end, or when the exchanges that found
+  /// such data exceed the others by kMostUnasked, the age of an answer is unknown, and the result
+  /// is kBabble.
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept {
     if (packets.size() == 0 || reply.size == 0) return transfer(packets, reply, deadline_ns);
@@ -61,47 +61,48 @@ class Transport {
     return result;
   }
 
-  /// Sends a vendor request without data; kRefused if there is no such pipe. Blocks as exchange()
-  /// does.
+  /// Sends a vendor request without data; returns kRefused if there is no such pipe. Blocks as
+  /// exchange() does.
   virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
-  /// To be called after a fault: clears stalls and discards pending replies. May block for some
+  /// Call this after a fault: clears stalls and discards pending replies. May block for some
   /// milliseconds.
   virtual void recover() noexcept = 0;
 
   /// Where the open device was found, for the beginning of a description: "at 1-2: "; empty when
-  /// its name says so.
+  /// the name says so.
   virtual std::string where() const { return {}; }
 
   /// Returns a will, without packets, with which another process can reach the same board; empty if
-  /// that is not possible. To be called after open(). Throws DeviceError if there is no file to
-  /// pass on.
+  /// that is not possible. Call this after open(). Throws DeviceError if there is no file to pass
+  /// on.
   virtual std::optional<LastWill> last_will() const = 0;
 
   /// May be called twice.
   virtual void close() noexcept = 0;
 
-  /// Two seconds of exchanges. Some answers too many are no reason to stop, as each is dropped.
+  /// Two seconds of exchanges. A few surplus answers are no reason to stop, because each is
+  /// dropped.
   static constexpr int kMostUnasked = 2000;
 
  protected:
   enum class Unasked { kNone, kDropped, kEndless };
 
-  /// As exchange(), of which it is the part that differs between connections.
+  /// The part of exchange() that differs between connections.
   virtual Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                             int64_t deadline_ns) noexcept = 0;
-  /// Drops what has arrived and answers nothing, until there is no more of it (kDropped) or until
+  /// Drops data that has arrived and answers nothing, until there is no more (kDropped) or until
   /// `until_ns` (kEndless). A USB board keeps such answers itself, a few of them at most.
   virtual Unasked drop_unasked(int64_t) noexcept { return Unasked::kNone; }
 
  private:
-  int unasked_ = 0;  ///< exchanges before which something was dropped, less the others
+  int unasked_ = 0;  ///< exchanges before which data was dropped, minus the other exchanges
 };
 
 /// Locks an open device file for this file descriptor until it is closed. Waits up to
 /// Transport::kBusyPatience_ns, because a program that has just been killed, or its guardian, may
-/// hold the lock a moment longer. Returns false and sets errno when the lock cannot be had;
-/// EWOULDBLOCK means that somebody else holds it.
+/// hold the lock a moment longer. Returns false and sets errno without the lock; EWOULDBLOCK means
+/// that another process holds it.
 inline bool lock_device(int file) noexcept {
   const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
   while (flock(file, LOCK_EX | LOCK_NB) != 0) {

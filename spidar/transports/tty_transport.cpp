@@ -77,13 +77,13 @@ DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs) {
 namespace {
 
 LinkFault fault_of_line(int error) noexcept {
-  // A USB adapter that was pulled out gives EIO or ENXIO.
+  // A USB adapter that was pulled out returns EIO or ENXIO.
   return error == EIO || error == ENXIO || error == ENODEV || error == EBADF ? LinkFault::kGone
                                                                              : LinkFault::kBusError;
 }
 
-/// Raw 8N1 at any speed, through termios2, because not every system has a constant for 2 Mbaud and
-/// more.
+/// Sets raw mode, 8N1, at any speed through termios2, because not every system has a constant for 2
+/// Mbaud and more.
 bool set_raw(int file, int baud) noexcept {
   termios2 settings{};
   if (call_ioctl(file, TCGETS2, &settings) != 0) return false;
@@ -98,8 +98,8 @@ bool set_raw(int file, int baud) noexcept {
   return call_ioctl(file, TCSETS2, &settings) == 0;
 }
 
-/// FTDI adapters otherwise collect bytes for 16 ms. Other drivers do not support it, and pseudo
-/// terminals do not need it.
+/// FTDI adapters otherwise collect bytes for 16 ms. Other drivers do not support this request, and
+/// pseudo terminals do not need it.
 void ask_for_low_latency(int file) noexcept {
   serial_struct serial{};
   if (ioctl(file, TIOCGSERIAL, &serial) != 0) return;
@@ -136,7 +136,7 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
 
 void TtyTransport::open() {
   close();
-  // What it does on being opened is not known of another device.
+  // Another device may do something unknown when it is opened.
   if (first_.known() && access(path_.c_str(), F_OK) == 0) {
     first_.require(name_, tty_identity(path_));
   }
@@ -152,7 +152,7 @@ void TtyTransport::open() {
   }
   if (!set_raw(file_, baud_)) fail("cannot be set to " + std::to_string(baud_) + " baud");
   ask_for_low_latency(file_);
-  // DTR and RTS low, as published; not every line has them.
+  // DTR and RTS are low, as published; not every line has them.
   const int lines = TIOCM_DTR | TIOCM_RTS;
   ioctl(file_, TIOCMBIC, &lines);
 }

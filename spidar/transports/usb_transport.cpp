@@ -106,7 +106,6 @@ LinkFault fault_of_submit(int error) noexcept {
   }
 }
 
-/// The fault of a control transfer, which libusb submits and waits for.
 LinkFault fault_of_control(int error) noexcept {
   if (error == LIBUSB_SUCCESS) return LinkFault::kNone;
   return error == LIBUSB_ERROR_TIMEOUT ? LinkFault::kTimeout : fault_of_submit(error);
@@ -149,7 +148,6 @@ DeviceErrorCode error_code_of_usb(int error) noexcept {
   }
 }
 
-/// Advice for an error in opening or claiming.
 std::string advice(int error) {
   switch (error) {
     case LIBUSB_ERROR_ACCESS:
@@ -296,7 +294,7 @@ bool UsbTransport::in_flight() const noexcept {
   return std::any_of(slots_.begin(), slots_.end(), [](const Slot& s) { return s.done == 0; });
 }
 
-/// Handles events until no transfer is in flight; from the deadline on, cancels them.
+/// Handles events until no transfer is in flight; from the deadline on, cancels the transfers.
 void UsbTransport::finish(int64_t deadline_ns) noexcept {
   bool cancelled = false;
   while (in_flight()) {
@@ -333,7 +331,7 @@ Transfer UsbTransport::transfer(std::initializer_list<ByteView> packets, Mutable
     std::copy_n(packet.data, length, slot.bytes.begin());
     fault = submit(slot, id_.out, length);
   }
-  // If a packet was not sent there will be no reply.
+  // After a packet that was not sent there is no reply.
   finish(fault == LinkFault::kNone ? deadline_ns : 0);
   if (fault != LinkFault::kNone) return {fault, 0};
 
@@ -354,7 +352,7 @@ Transfer UsbTransport::transfer(std::initializer_list<ByteView> packets, Mutable
 
 LinkFault UsbTransport::control(const VendorRequest& request, int64_t deadline_ns) noexcept {
   if (!handle_) return LinkFault::kGone;
-  // Zero would wait for ever.
+  // A timeout of zero would never end.
   const auto left_ms = std::max<int64_t>((deadline_ns - monotonic_now_ns()) / 1'000'000, 1);
   return fault_of_control(libusb_control_transfer(handle_, ftdi::kRequestType, request.request,
                                                   request.value, 0, nullptr, 0,
@@ -393,7 +391,7 @@ void UsbTransport::close() noexcept {
     libusb_close(handle_);
     handle_ = nullptr;
   }
-  // A transfer refers to the device to which it was last submitted, and that to its context.
+  // A transfer refers to the device to which it was last submitted, and that device to its context.
   for (Slot& slot : slots_) {
     libusb_free_transfer(slot.transfer);
     slot.transfer = nullptr;

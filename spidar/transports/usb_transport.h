@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Transport over USB, with libusb.
 #pragma once
 
 #include <array>
@@ -17,17 +16,16 @@ struct libusb_transfer;
 
 namespace spidar {
 
-/// A device in the list of the bus; it is not opened.
+/// A device in the list of the bus, not opened.
 struct UsbDeviceInfo {
   uint16_t vendor = 0;
   uint16_t product = 0;
   int bus = 0;
   int address = 0;          ///< changes each time the device is plugged in
   std::string path;         ///< the port: "1-2.3"
-  std::string serial;       ///< printable(); empty if it has none
-  bool accessible = false;  ///< this process may write to it
+  std::string serial;       ///< printable(); empty if the device has none
+  bool accessible = false;  ///< this process may write to the device
 
-  /// "/dev/bus/usb/001/004"
   std::string device_file() const;
 };
 
@@ -37,28 +35,28 @@ using UsbContext = std::unique_ptr<libusb_context, void (*)(libusb_context*)>;
 /// them. Throws DeviceError.
 UsbContext make_usb_context();
 
-/// Returns the devices with `vendor` and `product`. Reads descriptors that the system has stored;
-/// nothing is sent to a device. Throws DeviceError when there is no access to the bus.
+/// Returns the devices with `vendor` and `product`. Reads only descriptors that the system has
+/// stored. Throws DeviceError when there is no access to the bus.
 std::vector<UsbDeviceInfo> list_usb_devices(uint16_t vendor, uint16_t product);
 
 /// The USB ID of a board and its endpoints, all on interface 0.
 struct UsbId {
-  uint16_t vendor = 0;  ///< 0: it is not on USB
+  uint16_t vendor = 0;  ///< 0: the board is not on USB
   uint16_t product = 0;
   uint8_t out = 0;
   uint8_t in = 0;
   bool interrupt = false;   ///< otherwise bulk
-  bool shared = false;      ///< other devices have this id, too, so that each of them is asked
+  bool shared = false;      ///< other devices have this id, too, so each of them must be identified
   bool full_speed = false;  ///< 12 Mbit/s, packets of 64 bytes; otherwise 480 and 512
 
-  /// "0cec:0205"
   std::string text() const;
 };
 
-/// All transfers of an exchange are submitted to the kernel at once, the reply's first, so that an
-/// exchange takes one round trip on the bus. The thread that exchanges also handles the events. At
-/// the deadline it cancels transfers and waits for their end, which may take any time in libusb and
-/// the kernel. Do not use this class in a thread that must not wait; see boards::StringLink.
+/// Transport over USB, with libusb. All transfers of an exchange are submitted to the kernel at
+/// once, the reply's first, so that an exchange takes one round trip on the bus. The thread that
+/// exchanges also handles the events. At the deadline it cancels transfers and waits for their end,
+/// which may take any time in libusb and the kernel. Do not use this class in a thread that must
+/// not wait; see boards::StringLink.
 class UsbTransport final : public Transport {
  public:
   /// `name` is for messages.
@@ -81,7 +79,6 @@ class UsbTransport final : public Transport {
   static constexpr size_t kMaxPackets = 2;
   static constexpr size_t kMaxLength = 512;
 
-  /// One transfer and its buffer.
   struct Slot {
     libusb_transfer* transfer = nullptr;
     std::array<uint8_t, kMaxLength> bytes{};
@@ -98,7 +95,7 @@ class UsbTransport final : public Transport {
   UsbContext context_{nullptr, nullptr};
   libusb_device_handle* handle_ = nullptr;
   bool out_stalled_ = false;
-  std::array<Slot, kMaxPackets + 1> slots_;  ///< the last is the reply's
+  std::array<Slot, kMaxPackets + 1> slots_;  ///< the last one is the reply's
 };
 
 }  // namespace spidar

@@ -17,16 +17,15 @@ namespace spidar {
 namespace {
 
 constexpr const char* kHost = "localhost";
-/// Not looked up: a container may have no /etc/hosts.
+/// The address is not looked up, because a container may have no /etc/hosts.
 constexpr const char* kAddress = "127.0.0.1";
 constexpr int64_t kGreetingWait_ns = 2 * kSecond_ns;
 constexpr int64_t kAnswerWait_ns = 5'000'000;
-/// Longest message to the service, bytes.
 constexpr size_t kLongest = 4096;
-/// Files of a connection and of its loop, with room to spare. Without a limit, libwebsockets fills
-/// tables for as many files as the process may open.
+/// More than the files of a connection and of its loop. Without a limit, libwebsockets fills tables
+/// for as many files as the process may open.
 constexpr unsigned kMostFiles = 16;
-/// Longest answer, bytes. What is longer is no answer of a service for devices.
+/// The longest answer, bytes. A service for devices sends no longer one.
 constexpr size_t kMax = 1 << 20;
 
 /// Wakes the loop of libwebsockets, which may look at its timers just before it waits.
@@ -52,16 +51,15 @@ class WebSocketTransport::Connection {
     return run([this] { return state_ != State::kConnecting; }, deadline_ns) &&
            state_ == State::kOpen;
   }
-  /// Waits for an answer; false if there is none.
   bool receive(int64_t deadline_ns) {
     return run([this] { return complete_ || gone(); }, deadline_ns) && finish();
   }
-  /// Reads what has arrived, until there is no more of it.
+  /// Reads and drops what has arrived, until there is no more.
   Unasked drop_unasked(int64_t until_ns);
   void send(std::initializer_list<ByteView> packets) noexcept;
 
   bool gone() const noexcept { return state_ == State::kGone; }
-  /// The last message has been answered.
+  /// Whether the last message has been answered.
   bool answered() const noexcept { return pending_ == 0 && !asked_; }
   const std::vector<uint8_t>& answer() const noexcept { return incoming_; }
   int file() const noexcept { return lws_get_socket_fd(socket_); }
@@ -86,16 +84,16 @@ class WebSocketTransport::Connection {
   State state_ = State::kConnecting;
   std::string error_;
   std::array<uint8_t, LWS_PRE + kLongest> outgoing_{};
-  size_t pending_ = 0;     ///< length of the message that is to be written
-  bool asked_ = true;      ///< an answer is due; the first one is the greeting
-  bool counts_ = false;    ///< what arrives is an answer
-  bool complete_ = false;  ///< an answer has arrived
-  bool surplus_ = false;   ///< something else has
+  size_t pending_ = 0;     ///< length of the message that waits to be written
+  bool asked_ = true;      ///< whether an answer is due; the first one is the greeting
+  bool counts_ = false;    ///< whether arriving data is an answer
+  bool complete_ = false;  ///< whether an answer has arrived
+  bool surplus_ = false;   ///< whether other data has arrived
   std::vector<uint8_t> incoming_;
 };
 
 WebSocketTransport::Connection::Connection(uint16_t port) {
-  // The level is one for the whole process; the default prints what this class reports itself.
+  // The level applies to the whole process; the default prints what this class reports itself.
   lws_set_log_level(0, nullptr);
   lws_context_creation_info about{};
   about.port = CONTEXT_PORT_NO_LISTEN;
@@ -103,7 +101,7 @@ WebSocketTransport::Connection::Connection(uint16_t port) {
   about.user = this;
   about.fd_limit_per_thread = kMostFiles;
   about.http_proxy_address = "";  // not that of the environment: the service is on this computer
-  // libwebsockets ignores it for the whole process, although it sends with MSG_NOSIGNAL.
+  // libwebsockets ignores SIGPIPE for the whole process, although it sends with MSG_NOSIGNAL.
   struct sigaction of_process {};
   sigaction(SIGPIPE, nullptr, &of_process);
   context_ = lws_create_context(&about);
@@ -158,7 +156,7 @@ void WebSocketTransport::Connection::take(const uint8_t* bytes, size_t length) {
   complete_ = counts_ && lws_is_final_fragment(socket_) != 0;
 }
 
-/// Whether there was an answer.
+/// Returns whether there was an answer.
 bool WebSocketTransport::Connection::finish() noexcept {
   if (complete_) asked_ = false;
   return std::exchange(complete_, false);
@@ -173,7 +171,7 @@ Transport::Unasked WebSocketTransport::Connection::drop_unasked(int64_t until_ns
   bool is_in_time = true;
   while (is_in_time && has_unread()) {
     is_in_time = monotonic_now_ns() < until_ns;
-    // −1: it takes what is there, and does not wait.
+    // With −1, libwebsockets takes what has arrived, and does not wait.
     if (lws_service(context_, -1) < 0) state_ = State::kGone;
   }
   finish();
@@ -199,7 +197,7 @@ void WebSocketTransport::Connection::send(std::initializer_list<ByteView> packet
   lws_callback_on_writable(socket_);
 }
 
-/// Runs the loop of libwebsockets. False at the deadline.
+/// Runs the loop of libwebsockets. Returns false at the deadline.
 template <typename Done>
 bool WebSocketTransport::Connection::run(const Done& done, int64_t deadline_ns) {
   while (!done()) {
@@ -243,7 +241,7 @@ Transfer WebSocketTransport::transfer(std::initializer_list<ByteView> packets, M
                                       int64_t deadline_ns) noexcept {
   if (!connection_ || connection_->gone()) return {LinkFault::kGone, 0};
   if (!connection_->answered()) connection_->receive(deadline_ns);
-  // It may have ended with that answer, and libwebsockets has freed it.
+  // The connection may have ended with that answer, and libwebsockets has freed it.
   if (connection_->answered() && !connection_->gone()) {
     connection_->send(packets);
     connection_->receive(deadline_ns);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Exchanges with a service on this computer that answers each message on a WebSocket with one.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +14,9 @@
 
 namespace spidar {
 
-/// Whether a program listens at this TCP port of the loopback. Connects to it for a moment.
+/// Whether a program listens at this TCP port of the loopback. Connects to the port for a moment.
 inline bool is_listening(uint16_t port) {
-  constexpr timeval kPatience{0, 100'000};  // if the queue of the listener is full
+  constexpr timeval kPatience{0, 100'000};  // for a listener whose queue is full
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
@@ -30,16 +29,17 @@ inline bool is_listening(uint16_t port) {
   return listening;
 }
 
+/// Exchanges with a service on this computer that answers each message on a WebSocket with one.
 /// libwebsockets does the work, in the thread that calls: its loop runs only inside of these
 /// functions. It was preferred to libsoup, which aborts the process if the player has loaded
 /// libsoup 2.4 as well.
 ///
-/// A message is sent only when the previous one has been answered. After a timeout the next
-/// exchange waits for that answer first, and drops it, so that messages never queue up in the
-/// service. A message counts as the answer if it has begun to arrive after ours was written.
+/// A message is sent only after the answer to the previous one. After a timeout the next exchange
+/// waits for that answer first, and drops it, so that messages never queue up in the service. A
+/// message counts as the answer if it has begun to arrive after ours was written.
 class WebSocketTransport final : public Transport {
  public:
-  /// `name` is for messages, `cure` what to do when nothing answers at the port.
+  /// `name` is for messages, `cure` says what to do when nothing answers at the port.
   WebSocketTransport(std::string name, uint16_t port, std::string cure);
   ~WebSocketTransport() override;
 
