@@ -12,13 +12,13 @@ namespace {
 
 constexpr const char* kInterface = "org.freedesktop.ReserveDevice1";
 constexpr const char* kBus = "org.freedesktop.DBus";
-/// With the highest priority, the protocol has it that a card is not given away.
+/// By the protocol, a card with the highest priority is not given away.
 constexpr gint32 kPriority = std::numeric_limits<gint32>::max();
 
-/// Of RequestName of the D-Bus specification.
+/// Flags and results of RequestName in the D-Bus specification.
 constexpr guint32 kReplace = 2, kDoNotQueue = 4, kIsOwner = 1;
 
-/// Empty where there is no bus: GLib would start one.
+/// Returns an empty text where there is no bus, because GLib would start one.
 std::string bus_address() {
   const gchar* const address = secure_getenv("DBUS_SESSION_BUS_ADDRESS");
   if (address) return address;
@@ -26,9 +26,9 @@ std::string bus_address() {
   return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";
 }
 
-/// Null, and why in `error`, when the bus has not answered in `limit_ms`: it may accept a
-/// connection and say nothing. In a context of its own: there may be no main loop, or this may be
-/// its thread.
+/// Returns null, with the reason in `error`, when the bus has not answered in `limit_ms`: a bus may
+/// accept a connection and never answer. The call has a context of its own, because there may be no
+/// main loop, or this may be its thread.
 Ref<GDBusConnection> connect(const std::string& address, int limit_ms, std::string& error) {
   struct Answer {
     bool is_there = false;
@@ -54,12 +54,12 @@ Ref<GDBusConnection> connect(const std::string& address, int limit_ms, std::stri
   g_autoptr(GCancellable) cancelled = g_cancellable_new();
   g_autoptr(GSource) alarm = g_timeout_source_new(static_cast<guint>(limit_ms));
   bool is_late = false;
-  // GIO cannot cancel every step of a connection, so its answer may come when nobody waits.
+  // GIO cannot cancel every step of a connection, so its answer may come after the wait.
   const auto answer = std::make_shared<Answer>();
   g_main_context_push_thread_default(context);
   g_source_set_callback(alarm, ring, &is_late, nullptr);
   g_source_attach(alarm, context);
-  // A connection of its own does not end the process when the bus ends.
+  // A private connection does not end the process when the bus ends.
   g_dbus_connection_new_for_address(address.c_str(), kFlags, nullptr, cancelled, take,
                                     new std::shared_ptr<Answer>(answer));
   while (!answer->is_there && !is_late) g_main_context_iteration(context, TRUE);
@@ -104,7 +104,7 @@ std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& re
   std::unique_ptr<CardReservation> taken(new CardReservation(card));
   taken->bus_ = connect(address, taken->left_ms(), refused);
   if (!taken->bus_) return nullptr;
-  // It may still be called while the reservation is destroyed.
+  // GDBus may still call the filter while the reservation is destroyed.
   g_dbus_connection_add_filter(taken->bus_.get(), answer, new std::string(taken->path_),
                                [](gpointer path) { delete static_cast<std::string*>(path); });
   if (taken->request_name(kDoNotQueue, refused)) return taken;
@@ -116,7 +116,7 @@ std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& re
   return nullptr;
 }
 
-/// False, without a reason, if somebody else has it.
+/// Returns false, without a reason, if another process has the card.
 bool CardReservation::request_name(guint32 flags, std::string& refused) const {
   const Ref<GVariant> result = call(kBus, "/org/freedesktop/DBus", kBus, "RequestName",
                                     g_variant_new("(su)", name_.c_str(), flags), "(u)", refused);
@@ -144,8 +144,8 @@ Ref<GVariant> CardReservation::call(const char* to, const char* path, const char
   return result;
 }
 
-/// In GDBus' own thread: answers others who want the card. Whatever else is asked is an error that
-/// GDBus answers.
+/// Answers others who want the card, in GDBus' own thread. GDBus answers every other call with an
+/// error.
 GDBusMessage* CardReservation::answer(GDBusConnection* bus, GDBusMessage* message,
                                       gboolean incoming, gpointer path) {
   const bool is_asked =

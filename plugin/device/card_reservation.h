@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Asks a sound server for a card.
 #pragma once
 
 #include <gio/gio.h>
@@ -11,16 +10,16 @@
 
 namespace spidar {
 
-/// A card that PulseAudio, or the session manager of PipeWire, leaves to this process as long as
-/// this object lives: org.freedesktop.ReserveDevice1 on the session bus, which both of them follow.
-/// Needs no main loop.
+/// Asks a sound server for a card, which PulseAudio, or the session manager of PipeWire, leaves to
+/// this process as long as this object lives. Both follow org.freedesktop.ReserveDevice1 on the
+/// session bus. No main loop is needed.
 class CardReservation {
  public:
-  /// The time that the bus and the owner of the card have in all to give it away.
+  /// The time that the bus and the owner of the card have in all to give the card away.
   static constexpr int kPatience_ms = 3000;
 
-  /// `card` is ALSA's number. Null, and why in `refused`, if the card was not given away; null
-  /// without a reason where there is no session bus, and so nobody to ask.
+  /// `card` is ALSA's number. Returns null, with the reason in `refused`, if the owner does not
+  /// give the card away; null without a reason where there is no session bus, and so no owner.
   static std::unique_ptr<CardReservation> take(int card, std::string& refused);
   ~CardReservation();
   CardReservation(const CardReservation&) = delete;
@@ -29,7 +28,6 @@ class CardReservation {
  private:
   explicit CardReservation(int card);
 
-  /// The time left until until_us_; at least 1 ms.
   int left_ms() const;
   bool request_name(guint32 flags, std::string& refused) const;
   bool is_given_away(std::string& refused) const;

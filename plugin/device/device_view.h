@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What can be seen of an open device from outside the haptic loop.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@ namespace spidar {
 
 struct DeviceView {
   std::string name;
-  bool has_hand = false;         ///< it is simulated, and lead_hand() moves its hand
+  bool has_hand = false;         ///< whether lead_hand() moves the hand of a simulated device
   bool has_strings = true;       ///< otherwise only the size of the profile's frame matters
   TickRecord last;               ///< the newest tick
   uint64_t overruns = 0;         ///< see LoopCounters

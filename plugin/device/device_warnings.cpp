@@ -24,13 +24,13 @@ namespace {
 /// A hand that swings a slack string loses the pose for a moment, which is not reported.
 constexpr int64_t kPoseLost_ns = 500'000'000;
 
-/// A force that comes so much later is not felt as that of its picture: a delay is noticed from
-/// 45 ms on, as a mean over people (docs/feeling.md).
+/// A force that comes so much later is not felt as part of its picture: people notice a delay from
+/// 45 ms on, as a mean (docs/feeling.md).
 constexpr int64_t kPointless_ns = 40'000'000;
 /// A moment without frames is not reported.
 constexpr int64_t kLasting_ns = 2'000'000'000;
 
-/// Why the device was lost, with the last fault of the link, if there is a link.
+/// Returns why the device was lost, with the last fault of the link, if there is a link.
 std::string why_lost(const HapticSession& session) {
   const LinkFault fault = session.grip().health().last_fault;
   switch (fault) {
@@ -146,14 +146,13 @@ void DeviceWarnings::check_opened(const HapticOutput& output) const {
                         ("A file that can be read and written there is enough."));
   }
   const GripAbilities can = grip.abilities();
-  // Most devices have no torque or no force towards the viewer: their pages say so.
-  // Of what force-feedback devices can do, and how strong they are, nothing is known before.
+  // Most devices have no torque or no force towards the viewer, as their pages say. What a
+  // force-feedback device can do, and how strong it is, is not known before.
   const bool force_feedback = grip.name().compare(0, 2, "ff") == 0;
   const bool whole = can.force[0] && can.force[1] && can.direction;
   if (chosen.empty() && whole && is_simulated(grip.name())) return;
   std::string text;
   if (!chosen.empty()) text = grip.name() + ": " + chosen + ". ";
-  // The description of a sound card says what it is.
   const bool is_sound = grip.name().compare(0, 5, "sound") == 0;
   if (!force_feedback && !is_sound && chosen.empty()) text = grip.name() + ": ";
   if (force_feedback || chosen.empty()) text += session->opened() + ". ";
@@ -304,7 +303,7 @@ bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   }
   const DeviceState state = loop.last.device;
   const DeviceState before = state_;
-  // A device may be lost and back between two frames.
+  // A device may be lost and come back between two frames.
   const bool lost_since = before != DeviceState::kClosed && loop.counters.times_lost > times_lost_;
   state_ = state;
   times_lost_ = loop.counters.times_lost;
@@ -318,7 +317,7 @@ bool DeviceWarnings::check(const HapticSession* session, OnDeviceError policy) {
   if (state != DeviceState::kLost && !lost_since) return true;
   const std::string text = why_lost(*session);
   post("lost", device, text);
-  // It was away for less than a frame.
+  // The device was away for less than a frame.
   if (state != DeviceState::kLost) post("back", device, "");
   if (policy == OnDeviceError::kError) {
     GST_ELEMENT_ERROR(element_, RESOURCE, WRITE, ("%s", text.c_str()), ("on-device-error=error"));

@@ -103,8 +103,8 @@ void session_fields(const HapticSession& session, FieldSink& to) {
      "time of an exchange: `median`, `p99`");
 }
 
-/// `simulated`: the device "sim", otherwise null. If a test makes the ticks, only these move its
-/// grip, so that the speed of the test does not matter.
+/// `simulated` points to the device "sim", or is null. If a test makes the ticks, only these move
+/// the grip, so that the speed of the test does not matter.
 std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, bool threaded,
                                SimulatedDevice*& simulated) {
   simulated = nullptr;
@@ -119,7 +119,7 @@ std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element)
 
-/// Null for a device that no sound server uses.
+/// Returns null for a device that no sound server uses.
 std::unique_ptr<CardReservation> reserve(GstElement* element, const std::string& device) {
   const DeviceName name(device);
   if (name.device != "sound") return nullptr;
@@ -168,7 +168,7 @@ std::string HapticOutput::open(const std::string& device, const std::string& pro
       continue;
     }
     try {
-      // Others than a SPIDAR have no profile.
+      // Only a SPIDAR has a profile.
       const bool has_strings = kinds_called(DeviceName(found.device).device)[0]->has_strings();
       return choose(found, has_strings ? profile_name : "");
     } catch (const std::runtime_error& error) {
@@ -228,8 +228,8 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
 
 void HapticOutput::close() {
   follower_.end();
-  // Destroyed after the lock is released, because the ramp to rest takes 60 ms, and the session
-  // before its card is given back.
+  // The reservation is destroyed after the lock is released, because the ramp to zero takes 60 ms,
+  // and after the session.
   std::unique_ptr<CardReservation> reservation;
   std::unique_ptr<HapticSession> session;
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -250,7 +250,7 @@ void HapticOutput::set_max_force(double max_force_N) {
     if (!(max_force_N > most_force_N_) || said_too_much_) return;
     said_too_much_ = true;
     too_much_for = most_force_of_;
-    most_N = std::floor(10 * most_force_N_) / 10;  // what is said is accepted
+    most_N = std::floor(10 * most_force_N_) / 10;  // the stated number is accepted
   }
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                       ("max-force=%g is more than the %.1f N that %s can give in every direction "
@@ -278,8 +278,8 @@ bool HapticOutput::look_at_device(DeviceView& view) {
   view.ticks.clear();
   ForceTick tick;
   while (session_->loop().pop_force(tick)) view.ticks.push_back(tick);
-  // Where nobody looked for long, the oldest ticks are there and the newest are not: a gap that can
-  // be seen is better than one between them.
+  // After a long pause of the reader, the oldest ticks are there and the newest are not. A visible
+  // gap is better than one between ticks.
   if (view.ticks.size() >= HapticLoop::kForces) view.ticks.clear();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();

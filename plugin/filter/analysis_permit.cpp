@@ -13,8 +13,8 @@
 namespace spidar::filter {
 namespace {
 
-/// More than a frame takes. What has not ended by then may not end at all, for example because
-/// exit() is called by the very thread that has the permit, in a handler of a signal.
+/// A frame takes less. An analysis that has not ended by then may never end, for example because
+/// the thread with the permit itself has called exit(), in a signal handler.
 constexpr std::chrono::seconds kLongestWait{1};
 
 struct Permits {
@@ -26,7 +26,7 @@ struct Permits {
   const pid_t process = getpid();
 };
 
-/// Never destroyed: a thread may still ask for a permit while the process ends.
+/// The list is never destroyed: a thread may still ask for a permit while the process ends.
 Permits& permits() {
   static auto& all = *new Permits;
   return all;
@@ -49,8 +49,8 @@ AnalysisPermit::AnalysisPermit() {
   is_given_ = !all.is_ending;
   if (!is_given_) return;
   ++all.given;
-  // exit() calls what was registered last first. OpenCV makes its objects at their first use, some
-  // of them only in a later frame: so this is registered again before frames 2, 3, 5, 9, 17 …
+  // exit() calls the newest handler first. OpenCV makes its objects at their first use, some of
+  // them only in a later frame: so the handler is registered again before frames 2, 3, 5, 9, 17 …
   const uint64_t before = all.frames++;
   if ((before & (before - 1)) == 0) std::atexit(wait_for_frames);
 }

@@ -17,12 +17,11 @@ namespace {
 
 struct FaultWords {
   const char* why;      // in the log
-  const char* warning;  // null: nothing is reported
+  const char* warning;  // null: no warning
   const char* advice;
 };
 
-/// In the order of the enumeration. Of the numbers, %1$d is the shortest side of a picture and %2$d
-/// the longest.
+/// In the order of the enumeration. %1$d is the shortest side of a picture and %2$d the longest.
 constexpr FaultWords kFaultWords[] = {
     {"a haptic track is played", nullptr, nullptr},
     {"it has no timestamp",

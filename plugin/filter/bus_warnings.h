@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reports on the bus when something is wrong that does not stop the video.
 #pragma once
 
 #include <exception>
@@ -17,25 +16,26 @@
 
 namespace spidar::filter {
 
-/// Posts each warning once per stream, not once per frame. Streaming thread, and start() before it.
+/// Reports on the bus when something is wrong that does not stop the video, each warning once per
+/// stream. Streaming thread, and start() before it.
 class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
 
-  /// The element starts: everything may be reported again.
+  /// Tells that the element starts, so that every warning may be posted again.
   void start();
-  /// Another stream begins: faults of frames may be reported again.
+  /// Tells that another stream begins, so that faults of frames may be reported again.
   void begin_stream() {
     frame_faults_ = 0;
     exception_ = false;
     touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
   }
 
-  /// Looks at the bins around the element, which may have a running time of their own.
+  /// Checks the bins around the element, which may have a running time of their own.
   void check_bins();
   void check_frame(const FrameReport& report);
-  /// Calls `function`. When it throws, reports that once, and returns false: what nobody foresaw
-  /// does not end a film. `doing` completes "while …" in the debug text.
+  /// Calls `function`. When it throws, reports that once, and returns false: an unforeseen
+  /// exception does not end a film. `doing` completes "while …" in the debug text.
   template <typename Function>
   bool guard(const char* doing, Function&& function,
              SourceLocation location = SourceLocation::here()) {
@@ -50,24 +50,24 @@ class BusWarnings {
       return false;
     }
   }
-  /// Reports once that the trace can no longer be written. `error`: errno, or 0 when it can.
+  /// Reports once that the trace can no longer be written. `error` is errno, or 0 when all is well.
   void check_trace(int error);
   void check_touch(const HapticOutput& output, const FrameReport& report,
                    const TouchProperties& wanted);
-  /// Called when the grip is to point: warns if the device does not measure its position.
+  /// Warns if the grip points but the device does not measure its position.
   void check_pointer(const HapticSession* session);
   DeviceWarnings& device() { return device_; }
 
  private:
   GstElement* const element_;
   guint frame_faults_ = 0;  ///< bit i: FrameReport::Fault i was reported
-  // Reported:
+  // Whether each of these warnings was posted.
   bool touch_track_ = false, touch_device_ = false, stiffness_ = false, pointer_ = false;
   bool trace_ = false, exception_ = false;
   DeviceWarnings device_;
 };
 
-/// Why a frame is not analysed, for the log.
+/// Returns why a frame is not analysed, for the log.
 const char* words_of(FrameReport::Fault fault);
 
 }  // namespace spidar::filter

@@ -67,7 +67,7 @@ FrameReport MotionState::report_of(const GstVideoFrame& frame, const GstSegment&
     report.fault = FrameReport::Fault::kNotShown;
     return report;
   }
-  if (!timed || !is_in_time(*stamp)) {  // it cannot be rendered in time
+  if (!timed || !is_in_time(*stamp)) {  // such a frame cannot be rendered in time
     report.fault = FrameReport::Fault::kNoTimestamp;
     film.begin_run();
     return report;

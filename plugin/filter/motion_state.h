@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The state of an element spidarmotion.
 #pragma once
 
 #include <mutex>
@@ -25,32 +24,31 @@
 
 namespace spidar::filter {
 
-/// The settings of an element, and the parts that its frames and events go through. Its functions
-/// involve several of these parts.
+/// The state of an element spidarmotion: its settings, and the parts that its frames and events go
+/// through. The functions involve several of these parts.
 struct MotionState {
   explicit MotionState(GstElement* element);
 
-  /// The fields of `stats`. Any thread.
   void describe(FieldSink& to) const;
 
   // --- streaming thread
 
-  /// Running time begins anew: after a flush, and before a stream.
+  /// Tells that running time begins anew: after a flush, and before a stream.
   void reset();
   /// Processes a frame with `frame_settings`. Returns report().
   const FrameReport& process(const GstVideoFrame& frame, const GstSegment& segment);
-  /// The report of the newest frame.
   const FrameReport& report() const { return report_; }
-  /// The next frame does not continue the previous one: a seek, another film, another rate.
+  /// Tells that the next frame does not continue the previous one: a seek, another film, another
+  /// rate.
   void begin_epoch() { ++epoch_; }
-  /// Called instead of process() for a frame without a picture.
+  /// Call this instead of process() for a frame without a picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
 
-  std::mutex setting;         ///< what is set reaches the parts in the order it was set
+  std::mutex setting;         ///< settings must reach the parts in the order in which they were set
   MotionProperties settings;  ///< object lock
   bool opened = false;        ///< object lock: READY or above
   UnreadMessages unread;
-  gint window_changes = 0;  ///< atomic; to which the window has not yet responded
+  gint window_changes = 0;  ///< atomic; the changes to which the window has not yet responded
 
   // Any thread.
   HapticFeed feed;
@@ -65,7 +63,7 @@ struct MotionState {
   StreamOrientation orientation;
   FilmRenderer film{feed};
   FrameTrace trace;
-  std::string next_trace;  ///< its file, until it is opened; empty: none
+  std::string next_trace;  ///< the file of the trace, until it is opened; empty: none
   BusWarnings warnings;
 
  private:
@@ -77,7 +75,7 @@ struct MotionState {
 
 }  // namespace spidar::filter
 
-// Also shared by the files of the element.
+// The files of the element share this category.
 GST_DEBUG_CATEGORY_EXTERN(gst_spidar_motion_debug);
 
 struct _GstSpidarMotionFilter {
@@ -86,5 +84,5 @@ struct _GstSpidarMotionFilter {
   spidar::filter::MotionState* state;
 };
 
-/// Class initialisation: the functions that handle frames and events.
+/// Sets the functions that handle frames and events, for class initialisation.
 void gst_spidar_motion_install_stream(GstSpidarMotionFilterClass* klass);

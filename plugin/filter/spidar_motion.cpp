@@ -73,7 +73,7 @@ static void gst_spidar_motion_init(GstSpidarMotionFilter* self);
 static void gst_spidar_motion_class_init(GstSpidarMotionFilterClass* klass);
 static gpointer gst_spidar_motion_parent_class = nullptr;
 
-/// Not by a macro, which would name the type as the structure: GstSpidarMotion is one of the C API.
+/// The macro would name the type as the structure, but GstSpidarMotion belongs to the C API.
 GType gst_spidar_motion_get_type() {
   static const GType type = [] {
     const GType registered = g_type_register_static_simple(
@@ -189,7 +189,7 @@ static GstStateChangeReturn gst_spidar_motion_change_state(GstElement* element,
 
 // --- object ------------------------------------------------------------------------------------
 
-/// What does not read the properties with each frame.
+/// The effects of properties that are not read with each frame.
 static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
     {"ts-offset",
      [](auto* self, auto* value) {
@@ -221,7 +221,7 @@ static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
      }},
 };
 
-/// The window's own thread may wait for `setting`, so these are followed without it.
+/// The window's own thread may wait for `setting`, so these effects run without that lock.
 static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kUnlockedEffects[] = {
     {"debug-window", [](auto* self, auto*) { follow_debug_window(self); }},
 };
@@ -233,8 +233,8 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
 
-/// Where they are installed, GStreamer finds presets by itself only if it is installed there, too;
-/// in a build folder they are beside the plugin.
+/// In the folder of an installed plugin, GStreamer finds presets by itself only if GStreamer is
+/// installed there, too; in a build folder they are beside the plugin.
 static void find_presets() {
   for (const std::filesystem::path& folder :
        {spidar::own_file().parent_path(), spidar::installed(SPIDAR_PRESET_DIR)}) {

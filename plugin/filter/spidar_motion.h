@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The element `spidarmotion`.
 #pragma once
 
 #include <gst/video/gstvideofilter.h>
@@ -19,5 +18,5 @@ namespace spidar::filter {
 struct MotionState;
 }  // namespace spidar::filter
 
-/// The state of `self`, for tests that step the element by hand.
+/// The state of `self`, for tests that step the element.
 spidar::filter::MotionState& gst_spidar_motion_state(GstSpidarMotionFilter* self);

@@ -24,7 +24,7 @@ static GstBaseTransformClass* parent_class() {
   return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
 }
 
-/// Takes the settings of the frame, which stay as they are on its way.
+/// Takes the settings of the frame, which the frame keeps on its way.
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
   GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
@@ -52,7 +52,7 @@ static void begin_to_load_track(GstSpidarMotionFilter* self) {
   state.track.begin_stream(track, film);
 }
 
-/// With pointer and choice of this moment.
+/// Adds the pointer and the choice of this moment.
 static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   spidar::FrameSettings& settings = state.frame_settings;
   if (settings.pointer == Pointer::Kind::kGrip) {
@@ -150,7 +150,7 @@ static bool same_playback(const GstSegment& a, const GstSegment& b) {
          a.time == b.time && a.offset == b.offset;
 }
 
-/// Not before there is video: a film that is not there leaves the trace of the last one as it is.
+/// The trace is opened with the first video, so that a missing film leaves the last trace as it is.
 static void open_trace(GstSpidarMotionFilter* self) {
   MotionState& state = *self->state;
   const std::string trace = std::exchange(state.next_trace, "");
@@ -176,7 +176,8 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
       state.track.loader.set_interrupted(false);
-      // Flushes again, because a frame may have been in progress when the flush began.
+      // The loop may have received a frame that was in progress when the flush began, so it is
+      // cleared again.
       state.feed.clear();
       state.reset();
       if (reset_time) state.feed.output.follower().expect_base_time();
@@ -185,7 +186,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_STREAM_START:
       state.warnings.begin_stream();
       state.warnings.guard("looking for a track", [self] { begin_to_load_track(self); });
-      // What is scheduled stays: without a flush, its frames still wait for the screen.
+      // Scheduled wrenches stay: without a flush, their frames still wait for the screen.
       state.begin_epoch();
       state.orientation.begin_stream();
       break;
@@ -239,7 +240,7 @@ static void process_mouse(GstSpidarMotionFilter* self, GstEvent* event) {
   if (!points) return;
   const auto mouse = spidar::filter::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
   if (!mouse) return;
-  // A hand that is led points, too, but its clicks are no choice of objects.
+  // A led hand also points, but its clicks choose no objects.
   const bool leads_hand = state.display.hand().update(*mouse);
   if (!leads_hand || mouse->act == spidar::filter::SinkMouse::Act::kMove) {
     state.choice.mouse().update(*mouse);
@@ -289,7 +290,7 @@ static gboolean gst_spidar_motion_stop(GstBaseTransform* trans) {
   state.track.loader.stop();
   state.feed.clear();
   const spidar::LineWriter::Status trace = state.trace.close();
-  // Reported here, because messages during the change to NULL are discarded.
+  // The report comes here, because messages during the change to NULL are discarded.
   state.warnings.check_trace(trace.error);
   if (trace.error == 0) {
     spidar::warn_of_missing_rows(GST_ELEMENT(trans), "The trace", trace.dropped);

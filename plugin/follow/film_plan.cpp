@@ -24,7 +24,7 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-/// Empty if the URI has another form, or names another machine.
+/// Returns an empty text if the URI has another form, or names another machine.
 std::string path_of_uri(const std::string& uri) {
   g_autofree gchar* host = nullptr;
   g_autofree gchar* path = g_filename_from_uri(uri.c_str(), &host, nullptr);
@@ -33,7 +33,8 @@ std::string path_of_uri(const std::string& uri) {
   return path && is_here ? path : "";
 }
 
-/// With what stands for itself escaped: each '#', and each '%' that no two digits follow.
+/// Escapes characters that stand for themselves: each '#', and each '%' without two digits behind
+/// it.
 std::string escaped(const std::string& uri) {
   std::string result;
   for (size_t i = 0; i < uri.size(); ++i) {
@@ -50,7 +51,7 @@ std::string escaped(const std::string& uri) {
   return result;
 }
 
-/// Throws std::runtime_error when there is one that is not that of the film.
+/// Throws std::runtime_error when there is a track that belongs to another film.
 void find_track(const std::string& path, const Film& film, const std::atomic<bool>* stopped,
                 FilmPlan& plan) {
   const std::string beside = find_sidecar(path);
@@ -77,7 +78,7 @@ std::string path_of(const std::string& address) {
   if (!g_str_has_prefix(address.c_str(), kFile)) return {};
   const std::string path = path_of_uri(address);
   if (!path.empty() && exists(path)) return path;
-  // Not escaped at all, as in file:///films/100%25.avi for "100%25.avi".
+  // The address is not escaped at all, such as file:///films/100%25.avi for "100%25.avi".
   const std::string as_it_is = address.substr(std::string(kFile).size());
   if (!as_it_is.empty() && as_it_is[0] == '/' && exists(as_it_is)) return as_it_is;
   return path.empty() ? path_of_uri(escaped(address)) : path;

@@ -12,12 +12,12 @@
 namespace spidar::follow {
 namespace {
 
-/// As often as the loop is told where playback is.
+/// As often as the loop receives the playback clock.
 constexpr std::chrono::milliseconds kTick{10};
-/// Whoever sets the goals stands still, or its machine is very busy.
+/// An older goal means that the main loop stands still, or the machine is very busy.
 constexpr int64_t kStale_ns = 300'000'000;
 
-/// False when it has failed.
+/// Returns false when the film has failed.
 bool go_to(FollowedFilm& film, const FilmGoal& goal) {
   if (!film.check()) return false;
   const int64_t now_ns = monotonic_now_ns();
@@ -66,7 +66,7 @@ void FilmThread::run() {
     lock.unlock();
     if (goal.plan != plan) {
       plan = goal.plan;
-      film.reset();  // which leaves the device for the next one
+      film.reset();  // which releases the device for the next film
       try {
         if (plan) film = std::make_unique<FollowedFilm>(*plan, properties_);
       } catch (const std::runtime_error& error) {

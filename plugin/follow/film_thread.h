@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Opens, plays and closes what is felt in a thread of its own: a file, a network or a device that
-/// does not answer holds up that thread, and not the main loop.
 #pragma once
 
 #include <chrono>
@@ -19,30 +17,33 @@
 
 namespace spidar::follow {
 
-/// Which film a player plays, and where it is in it.
+/// Which film a player plays, and its position.
 struct FilmGoal {
   std::shared_ptr<const FilmPlan> plan;  ///< null: nothing is felt
   bool plays = false;                    ///< false: the force rests
   double rate = 1;
   int64_t at_ns = 0;                   ///< CLOCK_MONOTONIC
-  std::optional<int64_t> position_ns;  ///< at the time at_ns, if it is known
+  std::optional<int64_t> position_ns;  ///< at the time at_ns, if known
 };
 
 class FilmThread {
  public:
-  /// `properties` are those of spidarmotion, NAME=VALUE.
+  /// Opens, plays and closes followed films in a thread of its own: a file, a network or a device
+  /// that does not answer delays that thread, and not the main loop. `properties` are those of
+  /// spidarmotion, NAME=VALUE.
   explicit FilmThread(std::vector<std::string> properties);
-  /// Only after end().
+  /// Call end() before.
   ~FilmThread();
   FilmThread(const FilmThread&) = delete;
   FilmThread& operator=(const FilmThread&) = delete;
 
-  /// To be called every few tens of milliseconds: the force rests when no goal has come for 0.3 s.
+  /// Sets the goal. Call this every few tens of milliseconds: the force rests after 0.3 s without a
+  /// goal.
   void aim(FilmGoal goal);
-  /// What was asked for since the last call.
+  /// Returns the requests since the last call.
   FilmWish take_wish();
-  /// Closes what is open. False if that takes longer than `limit`; the thread then still runs, and
-  /// the process has to end without its destructor.
+  /// Closes what is open. Returns false if that takes longer than `limit`; the thread then still
+  /// runs, and the process must end without this destructor.
   bool end(std::chrono::milliseconds limit);
 
  private:

@@ -27,7 +27,7 @@
 namespace spidar::follow {
 namespace {
 
-/// Everything here is called in the main loop, and nothing waits but end().
+/// Every function runs in the main loop, and only end() waits.
 class Follower {
  public:
   Follower(GDBusConnection* bus, std::string name, std::vector<std::string> properties)
@@ -36,7 +36,7 @@ class Follower {
         thread_(std::make_unique<FilmThread>(std::move(properties))) {
     timer_ = g_timeout_add(kTick_ms, tick, this);
   }
-  /// After end().
+  /// Call end() before.
   ~Follower() {
     g_cancellable_cancel(ended_.get());
     g_source_remove(timer_);
@@ -44,36 +44,36 @@ class Follower {
   Follower(const Follower&) = delete;
   Follower& operator=(const Follower&) = delete;
 
-  /// False when a file, a network or a device holds something up for longer than kEnd. The process
-  /// then has to end as it is; its guardian sets the motors to zero.
+  /// Returns false when a file, a network or a device delays the end for longer than kEnd. The
+  /// process must then end as it is; its guardian sets the motors to zero.
   bool end() {
     stopped_ = true;
     const int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kEnd).count();
     if (!thread_->end(kEnd)) return false;
     while (looking_ > 0 && monotonic_now_ns() < until_ns) {
-      g_main_context_iteration(nullptr, TRUE);  // the timer goes on
+      g_main_context_iteration(nullptr, TRUE);  // the timer continues
     }
     return looking_ == 0;
   }
 
  private:
-  /// As often as the loop is told where playback is.
+  /// As often as the loop receives the playback clock.
   static constexpr guint kTick_ms = 10;
   static constexpr int64_t kSearch_ns = 250'000'000;
-  /// A player that tells no other position for so long stands still: it loads, or is stopped. VLC
-  /// tells one each 0.37 s.
+  /// A player that reports the same position for so long stands still: it loads, or is stopped. VLC
+  /// reports a position every 0.37 s.
   static constexpr int64_t kStandstill_ns = 1'000'000'000;
-  /// One that stands still for so long is said to.
+  /// After this time, a standstill is reported.
   static constexpr int64_t kLost_ns = 3'000'000'000;
-  /// An answer takes a millisecond, and some tens of them where the machine is busy.
+  /// An answer takes a millisecond, and some tens of them on a busy machine.
   static constexpr int64_t kNoAnswer_ns = 300'000'000;
-  /// So long, a player that is paused is not followed while others have yet to say that they play.
+  /// For this time, no paused player is followed, because others have yet to report that they play.
   static constexpr int64_t kSettle_ns = 1'000'000'000;
-  static constexpr int kMaxLooks = 8;       ///< films that are looked at together
+  static constexpr int kMaxLooks = 8;       ///< films that are examined at the same time
   static constexpr size_t kMaxSaid = 1000;  ///< sentences that are remembered
   static constexpr const char* kRefuses =
       " does not let other programs control it: pause it, and seek, in its own window";
-  /// So long, files that are being read and what is felt may take to end.
+  /// How long reading files and closing devices may take at the end.
   static constexpr std::chrono::milliseconds kEnd{2000};
 
   static gboolean tick(gpointer user) {
@@ -121,7 +121,7 @@ class Follower {
                      [this](Player& told) { tell_once(short_name(told.bus_name()) + kRefuses); }});
   }
 
-  /// Not in a callback of a player, which ends here.
+  /// A callback of a player must not destroy that player, which ends here.
   void forget_gone() {
     for (auto i = players_.begin(); i != players_.end();) {
       if (!i->second->is_gone()) {
@@ -154,7 +154,7 @@ class Follower {
     state_ = state;
   }
 
-  /// The next position that it tells is one of a playback that begins.
+  /// Tells that the next reported position begins a playback.
   void begin() {
     is_beginning_ = is_placed_ = true;
     began_ns_ = monotonic_now_ns();
@@ -168,7 +168,7 @@ class Follower {
 
   // --- films ------------------------------------------------------------------------------------
 
-  /// What is known of an address: null while it is being looked at.
+  /// Returns the plan of an address: null while the address is being examined.
   std::shared_ptr<const FilmPlan> plan_of(const std::string& address) {
     // A player may name another film before a slow disk has shown this one.
     if (looking_ >= kMaxLooks && plans_.count(address) == 0) return nullptr;
@@ -255,7 +255,7 @@ class Follower {
     if (!player_ && is_settled) say_why_none(views, players);
   }
 
-  /// Of files that nobody plays any more, so that one that has changed is looked at again.
+  /// Forgets files that nobody plays any more, so that a changed file is examined again.
   void forget_films() {
     for (auto i = plans_.begin(); i != plans_.end();) {
       i = i->second && used_.count(i->first) == 0 ? plans_.erase(i) : std::next(i);
@@ -308,7 +308,7 @@ class Follower {
                    " in MPRIS and plays a film; mpv needs the package mpv-mpris");
   }
 
-  /// Says so when the player does not tell where it is, or what is not felt.
+  /// Prints when the player does not report its position, or what is not felt.
   void judge_position(int64_t now_ns) {
     if (!player_ || state_.status != PlayerStatus::kPlaying) return;
     const std::string name = short_name(player_->bus_name());
@@ -357,7 +357,7 @@ class Follower {
     thread_->aim(std::move(goal));
   }
 
-  /// The player that is followed is the one that is controlled.
+  /// Controls the player that is followed.
   void carry_out(const FilmWish& wish) {
     if (!player_ || !player_->state()) return;
     const bool plays = state_.status == PlayerStatus::kPlaying;
@@ -369,7 +369,7 @@ class Follower {
     if (toggles) player_->toggle();
   }
 
-  /// mpv tells the position of the picture that it shows next.
+  /// mpv reports the position of the picture that it shows next.
   int64_t lead_ns(const FilmPlan& plan) const {
     return short_name(player_->bus_name()) == "mpv" ? plan.frame_ns : 0;
   }
@@ -384,19 +384,18 @@ class Follower {
   int64_t began_to_choose_ns_ = 0;
   std::map<std::string, std::unique_ptr<Player>> players_;  ///< by their bus names
   std::map<std::string, std::shared_ptr<const FilmPlan>> plans_;
-  std::set<std::string> used_;  ///< of these: what players play
-  int looking_ = 0;             ///< at so many files
+  std::set<std::string> used_;  ///< the addresses that players play
+  int looking_ = 0;             ///< number of files that are being examined
   std::set<std::string> said_;
   bool has_said_that_it_waits_ = false;
-  // The player that is followed.
   Player* player_ = nullptr;
-  std::optional<PlayerView> gone_;  ///< it was followed, and its end is to be said
+  std::optional<PlayerView> gone_;  ///< the followed player that has gone, until its end is printed
   PlayerState state_;
-  int64_t position_ns_ = 0;    ///< the newest that it told
+  int64_t position_ns_ = 0;    ///< the newest reported position
   bool is_beginning_ = false;  ///< the next position begins a playback
-  bool has_moved_ = false;     ///< forwards, in this film
-  bool is_placed_ = true;      ///< it tells where it is
-  int64_t began_ns_ = 0;       ///< to play
+  bool has_moved_ = false;     ///< the film has moved forwards
+  bool is_placed_ = true;      ///< the player reports its position
+  int64_t began_ns_ = 0;       ///< when playback began
   PositionFilter filter_;
   std::unique_ptr<FilmThread> thread_;
 };
@@ -411,7 +410,8 @@ void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
   quit(loop);
 }
 
-/// Null, and why in `error`, after kAnswer_ms at the latest, or when `loop` is quit meanwhile.
+/// Returns null, with the reason in `error`, after kAnswer_ms at the latest, or when `loop` is quit
+/// meanwhile.
 Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
   struct Call {
     GMainLoop* loop;
@@ -419,7 +419,7 @@ Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
     std::string error;
     bool is_waited_for = true;
   };
-  // The answer may come later.
+  // The answer may come after this function has returned.
   auto* const call = new std::shared_ptr<Call>(new Call{loop, nullptr, "", true});
   const std::shared_ptr<Call> kept = *call;
   const auto take = [](GObject*, GAsyncResult* result, gpointer user) {
@@ -430,7 +430,7 @@ Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
     if (failed) answered.error = failed->message;
     if (answered.is_waited_for) g_main_loop_quit(answered.loop);
   };
-  constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that is started for this needs a moment
+  constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that is started for this call needs a moment
   kept->error = "it does not answer";
   const guint timer = g_timeout_add(kLimit_ms, quit, loop);
   g_bus_get(G_BUS_TYPE_SESSION, nullptr, take, call);
@@ -468,7 +468,7 @@ int run(const std::string& name, const std::vector<std::string>& properties) {
   } else if (!is_interrupted) {
     tell("there is no session bus, by which players are followed: " + error);
   }
-  // Threads that something holds up still run.
+  // Delayed threads still run.
   if (!has_ended) {
     std::fflush(nullptr);
     _exit(bus || is_interrupted ? 0 : 1);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// spidar-feel --follow.
 #pragma once
 
 #include <string>
@@ -8,9 +7,9 @@
 
 namespace spidar::follow {
 
-/// Renders the force of the film that a player plays without GStreamer, until it is interrupted.
-/// `name` is that of a player in MPRIS, such as "vlc"; empty: the one that plays. `properties` are
-/// those of spidarmotion, NAME=VALUE. Returns the exit status.
+/// Runs spidar-feel --follow: renders the force of the film that a player without GStreamer plays,
+/// until it is interrupted. `name` is that of a player in MPRIS, such as "vlc"; empty: the one that
+/// plays. `properties` are those of spidarmotion, NAME=VALUE. Returns the exit status.
 int run(const std::string& name, const std::vector<std::string>& properties);
 
 }  // namespace spidar::follow

@@ -17,16 +17,16 @@
 namespace spidar::follow {
 namespace {
 
-/// A larger error is not corrected little by little: at 2 % of the time that would take seconds.
+/// A larger error is corrected by a seek: at 2 % of the time, a slow correction would take seconds.
 constexpr int64_t kSmall_ns = 60'000'000;
-/// Until the first positions after a jump are told, more is not known than where it was to lead.
+/// Until the first reports after a jump, only the target of the jump is known.
 constexpr int64_t kSettles_ns = 1'000'000'000;
-/// A larger one needs other parts of the film; a smaller one only another time for them.
+/// A larger jump needs other parts of the film; a smaller one only another time for them.
 constexpr int64_t kNear_ns = 500'000'000;
-/// It takes a picture, at most.
+/// A pause takes a picture at most.
 constexpr GstClockTime kLongestPause = 200 * GST_MSECOND;
 
-/// The first stream that is a haptic track is felt.
+/// Links the first stream that is a haptic track.
 void link_track(GstElement*, GstPad* pad, gpointer decode) {
   const Ref<GstPad> sink(gst_element_get_static_pad(GST_ELEMENT(decode), "sink"));
   if (!gst_pad_is_linked(sink.get()) && content_of(pad) == StreamContent::kHapticTrack) {
@@ -48,13 +48,13 @@ FollowedFilm::FollowedFilm(const FilmPlan& plan, const std::vector<std::string>&
       }) {
   const std::optional<bool> window = wants_window(properties_);
   build(window.value_or(false));
-  check();  // which device that is
+  check();  // reports which device that is
   if (is_simulated_ && !window && has_display()) build(true);
   gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
 }
 
 void FollowedFilm::build(bool has_window) {
-  // Only spidarmotion reads exchange formats, and rules, which go before a track that was found.
+  // Only spidarmotion reads exchange formats, and rules, which have priority over a found track.
   const bool has_rules = value_of(properties_, "feel") != nullptr;
   const bool is_track = !plan_.track.empty() && !tracks::is_exchange_file(plan_.track);
   if (is_track && !has_window && !has_rules) {
@@ -67,11 +67,11 @@ void FollowedFilm::build(bool has_window) {
     }
   }
   const std::string others = set_properties(felt_, properties_);
-  // Of spidarmotion, which looks at pictures.
+  // Only spidarmotion, which analyses pictures, has these properties.
   if (!others.empty()) {
     begins_ += "; it is played as it is, so these have no effect: " + others;
   }
-  // The base time is set by hand.
+  // This class sets the base time itself.
   gst_element_set_start_time(pipeline_.get(), GST_CLOCK_TIME_NONE);
   const Ref<GstClock> clock(gst_system_clock_obtain());
   gst_pipeline_use_clock(GST_PIPELINE(pipeline_.get()), clock.get());
@@ -100,7 +100,7 @@ void FollowedFilm::build_track() {
 
 void FollowedFilm::build_film() {
   pipeline_.reset(parse_pipeline(
-      // With any feature of its memory: decoders of FFmpeg name interlaced pictures beside others.
+      // Caps with any memory feature: decoders of FFmpeg list interlaced pictures separately.
       "uridecodebin name=source caps=video/x-raw(ANY) expose-all-streams=false videoconvert "
       "name=convert ! spidarmotion name=felt ! queue max-size-buffers=3 ! fakesink name=sink "
       "sync=true qos=true"));
@@ -115,7 +115,7 @@ void FollowedFilm::build_film() {
   g_object_set(source.get(), "uri", plan_.uri.c_str(), nullptr);
   videos_.watch(source.get());
   g_signal_connect(source.get(), "no-more-pads", G_CALLBACK(choose_stream), this);
-  // Of a track, spidarmotion says it.
+  // For a track, spidarmotion prints this.
   begins_ = plan_.track.empty() ? plan_.name + " is analysed" : "";
 }
 
@@ -138,7 +138,7 @@ FilmWish FollowedFilm::take_wish() {
   return std::exchange(wish_, {});
 }
 
-/// All streams are known.
+/// This signal means that all streams are known.
 void FollowedFilm::choose_stream(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<FollowedFilm*>(user);
   const Ref<GstElement> convert(gst_bin_get_by_name(GST_BIN(self.pipeline_.get()), "convert"));
@@ -153,7 +153,7 @@ bool FollowedFilm::check() {
   const Ref<GstBus> bus(gst_element_get_bus(pipeline_.get()));
   while (GstMessage* const message = gst_bus_pop(bus.get())) {
     const std::string text = text_for_people(message);
-    // Of one fault, elements say several things.
+    // Elements report one fault in several messages.
     if (!failed_ && !text.empty() && said_.insert(text).second) tell(text);
     is_simulated_ = says_simulated(message).value_or(is_simulated_);
     if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
@@ -200,7 +200,7 @@ void FollowedFilm::set_base_time(int64_t base_ns) {
   auto base = static_cast<GstClockTime>(base_ns);
   gst_element_set_base_time(pipeline_.get(), base);
   GstIterator* const all = gst_bin_iterate_recurse(GST_BIN(pipeline_.get()));
-  // Elements that come meanwhile get it from their bin.
+  // Elements that are added meanwhile get the base time from their bin.
   while (gst_iterator_foreach(all, give_base_time, &base) == GST_ITERATOR_RESYNC) {
     gst_iterator_resync(all);
   }
@@ -226,11 +226,11 @@ void FollowedFilm::play(int64_t now_ns, int64_t position_ns) {
 void FollowedFilm::seek(int64_t position_ns, double rate) {
   pause();
   const auto flags = static_cast<GstSeekFlags>(GST_SEEK_FLAG_FLUSH | GST_SEEK_FLAG_ACCURATE);
-  // What is prerolled by now is not what the seek leads to.
+  // Pictures that are prerolled by now precede the target of the seek.
   gst_element_get_state(pipeline_.get(), nullptr, nullptr, kLongestPause);
   check();
   ready_ = false;
-  // Even if it leads to a place before.
+  // The rest also holds when the position is before the film.
   paused_at_ns_ = position_ns;
   rate_ = rate;
   seek_began_ns_ = monotonic_now_ns();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film that is felt and not shown, at the position at which another program plays it.
 #pragma once
 
 #include <atomic>
@@ -19,7 +18,7 @@
 
 namespace spidar::follow {
 
-/// What was asked for in the debug window, of which the player is to be told.
+/// Requests of the debug window for the player.
 struct FilmWish {
   std::optional<bool> plays;
   std::optional<int64_t> position_ns;
@@ -30,12 +29,13 @@ struct FilmWish {
   }
 };
 
-/// Plays the haptic track of the film, or the film once more. One thread, which files, networks and
-/// devices may hold up. Times are of CLOCK_MONOTONIC.
+/// A film that is felt and not shown, at the position at which another program plays it: its haptic
+/// track, or its analysis. One thread, which files, networks and devices may delay. Times are of
+/// CLOCK_MONOTONIC.
 class FollowedFilm {
  public:
   /// `properties` are those of spidarmotion, NAME=VALUE. Opens the device, and begins at rest.
-  /// Without a device, the debug window shows what would be felt, where there is a display. Throws
+  /// Without a device, the debug window shows the force, where there is a display. Throws
   /// std::runtime_error, which says what is wrong.
   FollowedFilm(const FilmPlan& plan, const std::vector<std::string>& properties);
   ~FollowedFilm();
@@ -45,12 +45,12 @@ class FollowedFilm {
   /// Prints the messages of the pipeline, each text once. Returns false when the pipeline has
   /// failed.
   bool check();
-  /// The player plays at `rate` and is at this position, which the film is to follow. Small errors
-  /// are corrected slowly, large ones by a seek.
+  /// Follows a player that plays at `rate` and is at this position. Small errors are corrected
+  /// slowly, large ones by a seek.
   void follow(int64_t now_ns, int64_t position_ns, double rate);
-  /// The player rests, at this position if it is known.
+  /// Rests with the player, at this position if known.
   void rest(std::optional<int64_t> position_ns);
-  /// What was asked for since the last call.
+  /// Returns the requests since the last call.
   FilmWish take_wish();
 
  private:
@@ -72,12 +72,12 @@ class FollowedFilm {
   const std::vector<std::string> properties_;
   VideoChoice videos_{VideoChoice::Rule::kMarked};
   std::mutex mutex_;
-  FilmWish wish_;  ///< of the thread of the window
+  FilmWish wish_;  ///< set by the thread of the window
   std::atomic<guint32> own_seek_{GST_SEQNUM_INVALID};
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
   GstElement* sink_ = nullptr;  ///< the sink that waits for the clock
-  std::string begins_;          ///< to be printed when it plays for the first time
+  std::string begins_;          ///< printed when it plays for the first time
   std::set<std::string> said_;
   bool is_simulated_ = false;  ///< no device renders it
   double rate_ = 1;
@@ -85,9 +85,9 @@ class FollowedFilm {
   bool playing_ = false;
   bool failed_ = false;
   int64_t base_ns_ = 0;
-  int64_t paused_at_ns_ = 0;  ///< the position
-  int64_t checked_ns_ = 0;    ///< when follow() last checked the position
-  int64_t settled_ns_ = 0;    ///< from when on the player's position is known well
+  int64_t paused_at_ns_ = 0;
+  int64_t checked_ns_ = 0;  ///< when follow() last checked the position
+  int64_t settled_ns_ = 0;  ///< from when on the player's position is known well
   // The segment: a position and its running time.
   int64_t begin_position_ns_ = 0, begin_running_ns_ = 0;
   int64_t seek_began_ns_ = 0, seek_took_ns_ = 0;

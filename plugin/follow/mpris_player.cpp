@@ -17,18 +17,18 @@ constexpr const char* kPrefix = "org.mpris.MediaPlayer2.";
 constexpr const char* kPath = "/org/mpris/MediaPlayer2";
 constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
 constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
-/// The track that players without a list of tracks name. SetPosition is for those of a list.
+/// The track that players without a list of tracks name. SetPosition needs a list.
 constexpr const char* kNoTrack = "/org/mpris/MediaPlayer2/TrackList/NoTrack";
 constexpr const char* kBus = "org.freedesktop.DBus";
-/// More than a person has; each is asked once a second.
+/// More than a person has; each player is queried once a second.
 constexpr size_t kMaxPlayers = 64;
 
-/// What came of a question: an answer, or one of these, or another error.
+/// The result of a call: an answer, one of these, or another error.
 struct Answer {
   Ref<GVariant> reply;
-  bool is_cancelled = false;  ///< whoever asked is destroyed
-  bool is_gone = false;       ///< whoever was asked
-  bool is_refused = false;    ///< it has answered with an error
+  bool is_cancelled = false;  ///< the caller is destroyed
+  bool is_gone = false;       ///< the player is gone
+  bool is_refused = false;    ///< the player has answered with an error
 };
 
 Answer finish(GObject* bus, GAsyncResult* result) {
@@ -48,7 +48,6 @@ GVariant* all_of_player() {
   return g_variant_new("(s)", kPlayer);
 }
 
-/// Of a dictionary of properties.
 PlayerState state_of(GVariant* properties) {
   PlayerState state;
   const gchar* text = nullptr;
@@ -56,7 +55,7 @@ PlayerState state_of(GVariant* properties) {
     if (g_str_equal(text, "Playing")) state.status = PlayerStatus::kPlaying;
     if (g_str_equal(text, "Paused")) state.status = PlayerStatus::kPaused;
   }
-  // As far as mpv goes; what is not a rate counts as that of ordinary playback.
+  // The range of mpv; a number outside counts as ordinary playback.
   constexpr double kMin = 0.01, kMax = 100;
   double rate = 0;
   if (g_variant_lookup(properties, "Rate", "d", &rate) && rate >= kMin && rate <= kMax) {
@@ -64,7 +63,7 @@ PlayerState state_of(GVariant* properties) {
   }
   const Ref<GVariant> metadata(
       g_variant_lookup_value(properties, "Metadata", G_VARIANT_TYPE_VARDICT));
-  // Longer ones name no file, and would be kept.
+  // Longer addresses name no file, and would stay in memory.
   constexpr size_t kMaxUri = 64 << 10;
   if (metadata && g_variant_lookup(metadata.get(), "xesam:url", "&s", &text) &&
       std::strlen(text) <= kMaxUri) {
@@ -85,13 +84,12 @@ PlayerState state_of(GVariant* properties) {
   return state;
 }
 
-/// Of any number that a player may tell.
+/// Accepts any number that a player may report.
 int64_t ns_of(gint64 position_us) {
   constexpr gint64 kMax_us = 1'000'000 * gint64{365 * 24 * 3600};
   return 1000 * std::clamp(position_us, -kMax_us, kMax_us);
 }
 
-/// Of the reply to Properties.GetAll.
 std::optional<PlayerState> state_in(GVariant* reply) {
   if (!reply || !g_variant_is_of_type(reply, G_VARIANT_TYPE("(a{sv})"))) return std::nullopt;
   const Ref<GVariant> properties(g_variant_get_child_value(reply, 0));
@@ -210,7 +208,7 @@ void Player::ask_position() {
   ask("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
 }
 
-/// One question at a time, however many changes a player tells of.
+/// Sends one query at a time, however many changes a player reports.
 void Player::ask_state() {
   state_changed_ = state_waits_;
   if (std::exchange(state_waits_, true)) return;
@@ -218,13 +216,13 @@ void Player::ask_state() {
   ask("GetAll", all_of_player(), take_state);
 }
 
-/// A player that reads its position and then answers is late, never early.
+/// A player reads its position and then answers, so the position is late, never early.
 void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   auto& self = *static_cast<Player*>(user);
   self.asked_ns_ = 0;
-  // It ended before its end was listened for.
+  // The player ended before this program listened for its end.
   self.is_gone_ = self.is_gone_ || answer.is_gone;
   GVariant* const reply = answer.reply.get();
   if (!reply) {
@@ -258,7 +256,7 @@ void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gch
                          const gchar* name, GVariant* parameters, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   if (!g_str_equal(name, "Seeked")) {
-    self.ask_state();  // what changed is only a part
+    self.ask_state();  // the signal has only a part of the state
   } else if (self.is_watched_ && g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
     gint64 position_us = 0;
     g_variant_get(parameters, "(x)", &position_us);
@@ -270,7 +268,7 @@ void Player::take_owner(GDBusConnection*, const gchar*, const gchar*, const gcha
                         GVariant* parameters, gpointer user) {
   const gchar* before = nullptr;
   g_variant_get(parameters, "(&s&s&s)", nullptr, &before, nullptr);
-  // One that gets the name while nobody has it is new, and is asked.
+  // A player that gets the name while nobody has it is new, and is queried.
   if (*before != '\0') static_cast<Player*>(user)->is_gone_ = true;
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec). No
-/// call waits, and each has a deadline.
 #pragma once
 
 #include <cstdint>
@@ -18,32 +16,35 @@ namespace spidar::follow {
 struct PlayerState {
   PlayerStatus status = PlayerStatus::kStopped;
   double rate = 1;
-  std::string uri;    ///< of what it plays; empty if it does not state it
-  std::string track;  ///< the object path by which it knows that; empty if it does not state it
+  std::string uri;  ///< of the film; empty if the player does not report it
+  /// The object path of that film in the player; empty if the player does not report it.
+  std::string track;
   bool can_pause = true, can_seek = true;
 };
 
 /// Deadline for an answer, which takes a millisecond, or some tens of them on a busy machine. A
-/// player that has not answered by then is asked again.
+/// player that has not answered by then is queried again.
 constexpr int kAnswer_ms = 1000;
 
 /// The name of a player for people: "vlc" for org.mpris.MediaPlayer2.vlc.instance7.
 std::string short_name(const std::string& bus_name);
 
-/// Asks for the bus names of all players, or of those called `name` unless that is empty. `take`
-/// gets them in the main loop, or nothing when the bus does not answer, and nothing at all once
+/// Queries the bus names of all players, or of those called `name` unless that is empty. `take`
+/// gets them in the main loop, or nothing when the bus does not answer. `take` is not called once
 /// `ended` is cancelled.
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
                   std::function<void(std::optional<std::vector<std::string>>)> take);
 
-/// A player. Callbacks are called in the main loop; times are of CLOCK_MONOTONIC.
+/// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec). No
+/// call waits, and each has a deadline. Callbacks run in the main loop; times are of
+/// CLOCK_MONOTONIC.
 class Player {
  public:
   struct Told {
-    std::function<void(Player&)> state;  ///< a state has come
+    std::function<void(Player&)> state;  ///< called when a state has come
     /// Called for a player that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
-    std::function<void(Player&)> refusal;  ///< of toggle() or seek()
+    std::function<void(Player&)> refusal;  ///< called when toggle() or seek() is refused
   };
   Player(GDBusConnection* bus, const std::string& bus_name, Told told);
   ~Player();
@@ -51,24 +52,23 @@ class Player {
   Player& operator=(const Player&) = delete;
 
   const std::string& bus_name() const { return bus_name_; }
-  /// Nothing before the player has answered.
+  /// Returns nothing before the player has answered.
   const std::optional<PlayerState>& state() const { return state_; }
   /// Whether the player has ended, or another program has its name.
   bool is_gone() const { return is_gone_; }
-  /// Sets whether the player is asked for its position.
+  /// Sets whether the player is queried for its position.
   void watch(bool wanted);
-  /// False when the player has answered that it has no position.
+  /// Returns false when the player has answered that it has no position.
   bool has_position() const { return has_position_; }
-  /// Asks it to pause, or to go on.
   void toggle();
-  /// Asks it to go to a place that is so far from where it is.
+  /// Seeks to a position at this distance from the present one.
   void seek(int64_t position_ns, int64_t distance_ns);
-  /// How long a question has been waiting for its answer.
+  /// How long a query has been waiting for its answer.
   int64_t silent_ns() const;
 
  private:
   static constexpr guint kPoll_ms = 20;
-  /// Period in which the state is asked for, because some players do not report every change.
+  /// The period of queries of the state, because some players do not report every change.
   static constexpr int64_t kAskState_ns = 1'000'000'000;
 
   static gboolean poll(gpointer self);
@@ -94,10 +94,10 @@ class Player {
   bool is_gone_ = false;
   bool is_watched_ = false;
   bool has_position_ = true;
-  int64_t asked_ns_ = 0;  ///< when the position was asked for; 0: no question waits
+  int64_t asked_ns_ = 0;  ///< when the position was queried; 0: no query waits
   int64_t state_asked_ns_ = 0;
-  bool state_waits_ = false;    ///< a question for the state has no answer yet
-  bool state_changed_ = false;  ///< since it was asked
+  bool state_waits_ = false;    ///< whether a query of the state has no answer yet
+  bool state_changed_ = false;  ///< whether the state has changed since the query
 };
 
 }  // namespace spidar::follow

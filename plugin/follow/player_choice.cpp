@@ -9,7 +9,7 @@
 namespace spidar::follow {
 namespace {
 
-/// Better ones compare greater.
+/// Better players compare greater.
 auto rank(const PlayerView& player, bool is_followed) {
   return std::make_tuple(player.status == PlayerStatus::kPlaying, player.is_placed, is_followed);
 }
@@ -17,7 +17,7 @@ auto rank(const PlayerView& player, bool is_followed) {
 bool may_be_followed(const PlayerView& player, bool is_followed, bool is_named) {
   if (player.status == PlayerStatus::kStopped) return false;
   if (!is_named && repeats_another(player.name)) return false;
-  // The next film of the player that is followed is waited for.
+  // The next film of the followed player is worth waiting for.
   return player.film == PlayerView::Film::kMoving ||
          (is_followed && player.film == PlayerView::Film::kUnknown);
 }
@@ -25,7 +25,7 @@ bool may_be_followed(const PlayerView& player, bool is_followed, bool is_named) 
 }  // namespace
 
 bool repeats_another(const std::string& name) {
-  // Of playerctl; of KDE Connect, for the players of a telephone; of Plasma, for those of a
+  // Names of playerctl; of KDE Connect, for the players of a telephone; of Plasma, for those of a
   // browser; of BlueZ, for those that are connected by Bluetooth.
   constexpr const char* kNames[] = {"playerctld", "kdeconnect", "plasma-browser-integration",
                                     "mpris-proxy"};

@@ -31,7 +31,7 @@ void PositionFilter::reset(int64_t now_ns, int64_t position_ns, double rate) {
 }
 
 void PositionFilter::change_rate(int64_t now_ns, double rate) {
-  // add() ignores this position if it is reported again: it would be late.
+  // add() ignores this position if it is reported again, because that report would be late.
   const int64_t reported_ns = position_ns_;
   reset(now_ns, position_at(now_ns), rate);
   position_ns_ = reported_ns;
@@ -50,7 +50,7 @@ void PositionFilter::add(int64_t now_ns, int64_t position_ns) {
   newest_ns_ = now_ns;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
   const bool jumped = std::abs(late_ns) > kMaxLate_ns;
-  // A single late one may come from a moment in which the player, or this process, was held up.
+  // A single late report may come from a moment in which the player, or this process, was delayed.
   if (jumped && (jumped_ || late_ns < 0 || count_ == 1)) {
     return reset_after_jump(now_ns, position_ns);
   }
@@ -65,7 +65,7 @@ void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
   backward_ = 0;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();
   if (std::abs(late_ns) > kMaxLate_ns) return reset_after_jump(now_ns, position_ns);
-  is_target_ = true;  // it may have stopped for a moment
+  is_target_ = true;  // the player may have stopped for a moment
 }
 
 int64_t PositionFilter::position_at(int64_t now_ns) const {
@@ -74,7 +74,7 @@ int64_t PositionFilter::position_at(int64_t now_ns) const {
 
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling) {
   const double most = is_settling ? 0.5 : 0.02;
-  // Long enough to smooth the jitter of the filter.
+  // The time is long enough to smooth the jitter of the filter.
   const double time_ns = is_settling ? 0.1e9 : 0.5e9;
   const auto passed = static_cast<double>(passed_ns);
   const double wanted = static_cast<double>(error_ns) * passed / time_ns;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where a player is, estimated from the positions that it reports: seldom, and nearly always late.
 #pragma once
 
 #include <array>
@@ -9,26 +8,27 @@
 
 namespace spidar::follow {
 
-/// A player cannot report a position before it has reached it, but may report it late: mpv reports
-/// 24 positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114
-/// ms late. So the filter trusts the report with the least delay. Times are of CLOCK_MONOTONIC.
+/// Estimates the position of a player from its reports, which are rare and nearly always late. A
+/// player cannot report a position before reaching it, but may report it late: mpv reports 24
+/// positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114 ms
+/// late. So the filter trusts the report with the least delay. Times are of CLOCK_MONOTONIC.
 class PositionFilter {
  public:
   /// The number of positions that VLC reports in 3 s.
   static constexpr size_t kKept = 8;
-  /// No player was seen to report as late as this: a larger difference is a jump.
+  /// No player reported as late as this in our measurements: a larger difference is a jump.
   static constexpr int64_t kMaxLate_ns = 150'000'000;
-  /// This many positions in a row, each before the last, are no jumps that a person makes: VLC
-  /// reports three in a second.
+  /// So many positions in a row, each before the last, are not jumps by a person: VLC reports three
+  /// a second.
   static constexpr int kBackward = 3;
 
-  /// The player plays at `rate` from this position on; what it reported before no longer counts.
+  /// Tells that the player plays at `rate` from this position on; earlier reports no longer count.
   void reset(int64_t now_ns, int64_t position_ns, double rate);
-  /// The player goes on at another rate.
+  /// Tells that the player continues at another rate.
   void change_rate(int64_t now_ns, double rate);
-  /// The player reports this position. The same one again is ignored.
+  /// Takes a reported position. The same one again is ignored.
   void add(int64_t now_ns, int64_t position_ns);
-  /// The player reports a jump to this position. VLC also does so when there was none.
+  /// Takes a reported jump to this position. VLC also reports jumps when there was none.
   void tell_jump(int64_t now_ns, int64_t position_ns);
 
   bool has_begun() const { return count_ > 0; }
@@ -36,7 +36,7 @@ class PositionFilter {
   bool runs_backwards() const { return backward_ >= kBackward; }
   /// When the player reported the newest position; 0 before the first one.
   int64_t newest_ns() const { return newest_ns_; }
-  /// The estimated position. To be called after reset().
+  /// The estimated position. Call reset() before.
   int64_t position_at(int64_t now_ns) const;
 
  private:
@@ -47,17 +47,17 @@ class PositionFilter {
   void reset_after_jump(int64_t now_ns, int64_t position_ns);
 
   std::array<int64_t, kKept> begin_ns_{};
-  size_t count_ = 0;  ///< since reset(); the last kKept are there
+  size_t count_ = 0;  ///< since reset(); the last kKept are stored
   double rate_ = 1;
-  int64_t position_ns_ = 0;  ///< the newest that was reported
+  int64_t position_ns_ = 0;  ///< the newest reported position
   int64_t newest_ns_ = 0;
   int backward_ = 0;        ///< positions in a row, each before the last
-  bool jumped_ = false;     ///< the newest differed by more than kMaxLate_ns
-  bool is_target_ = false;  ///< a jump was reported: the next position replaces what is known
+  bool jumped_ = false;     ///< whether the newest one differed by more than kMaxLate_ns
+  bool is_target_ = false;  ///< whether the next position replaces all others after a reported jump
 };
 
 /// By how much to shift a film that is `error_ns` behind the player, `passed_ns` after the last
-/// shift: by at most 2 % of that time, which is not felt; while `is_settling`, in the first second
+/// shift: by at most 2 % of that time, which nobody feels; while `is_settling`, in the first second
 /// after a jump, by at most half of it, because hardly any force has been felt yet.
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 

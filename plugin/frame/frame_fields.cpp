@@ -19,7 +19,7 @@ uint32_t to_unsigned(int number) {
   return static_cast<uint32_t>(number);
 }
 
-/// Of the one object that is felt; 0 if it is none, or not one alone.
+/// The error of the single object that is felt; 0 if there is none, or more than one.
 double felt_error_px_s(const Frame& frame) {
   const MovingObject* const felt = find_object(frame.objects, frame.felt_object);
   return felt ? felt->error_px_s : 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What users read of a frame, or of a piece of a haptic track: a new field is a row of
+/// The fields of a frame, or of a piece of a haptic track, that users read. A new field is a row of
 /// frame_fields() with its value, and its outputs.
 #pragma once
 
@@ -25,16 +25,15 @@ struct FrameBuffer {
 
 void frame_fields(const FrameReport& report, const FrameBuffer& buffer, FieldSink& to);
 
-/// The part of the frame that the film is in; also in `stats`.
+/// The part of the frame that shows the film; also in `stats`.
 void area_fields(const PicturePart& film, FieldSink& to);
 /// Why nothing is felt; also in `stats`.
 void no_force_fields(NoForceReason film, NoForceReason device, FieldSink& to);
 
-// Of JSON only.
+// For JSON only.
 void background_fields(const Background& background, FieldSink& to);
 void object_fields(const MovingObject& object, FieldSink& to);
 
-/// Posts `spidar-motion` with the fields of frame_fields().
 void post_motion_message(GstElement* element, GstClockTime timestamp, GstClockTime duration,
                          const FrameReport& report, UnreadMessages& unread);
 

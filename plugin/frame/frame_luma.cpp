@@ -53,7 +53,7 @@ bool is_side_by_side(GstVideoMultiviewMode views) {
          views == GST_VIDEO_MULTIVIEW_MODE_SIDE_BY_SIDE_QUINCUNX;
 }
 
-/// How the luma of a planar or semi-planar format is stored; it is the first component.
+/// How a planar or semi-planar format stores its luma, which is the first component.
 LumaSample sample_of(const GstVideoFormatInfo& format) {
   const int depth = static_cast<int>(GST_VIDEO_FORMAT_INFO_DEPTH(&format, 0));
   if (depth <= 8) return {};
@@ -71,7 +71,8 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
 }
 
 /// Whether the two views of a frame were squeezed into it. Demuxers of Matroska and MP4 say that
-/// there are two, and not this; GStreamer guesses it from the shape of the frame.
+/// there are two views, but not whether they are squeezed; GStreamer guesses that from the shape of
+/// the frame.
 bool has_half_views(const GstVideoInfo& info) {
   const auto flags = static_cast<int>(GST_VIDEO_INFO_MULTIVIEW_FLAGS(&info));
   return (flags & GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT) != 0 ||
@@ -162,7 +163,7 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const PicturePart& sho
   gpointer planes[GST_VIDEO_MAX_PLANES];
   std::copy(std::begin(frame.data), std::end(frame.data), planes);
   for (int y = 0; y < shown.height; ++y) {
-    // Whole rows, because not every format can be unpacked from the middle of a row.
+    // Whole rows are read, because not every format can be unpacked from the middle of a row.
     format->unpack_func(format, GST_VIDEO_PACK_FLAG_NONE, unpacked_row_.data(), planes,
                         frame.info.stride, 0, shown.y + y, width);
     uint8_t* const to = converted_.data() + static_cast<size_t>(y) * shown_width;
@@ -178,7 +179,8 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const PicturePart& sho
 }
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
-  // The lines of one field, with their mean between them, so that the picture keeps its height.
+  // Takes the lines of one field, with their mean between them, so that the picture keeps its
+  // height.
   const size_t width = static_cast<size_t>(frame.width);
   const int first = top_first ? 0 : 1;
   field_.resize(width * static_cast<size_t>(frame.height));
@@ -213,7 +215,7 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
     // In a crop that begins on an odd line, the other field comes first.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
   } else if (combing_.update(luma)) {
-    // It is unknown which field is earlier, so always the same one is taken.
+    // The earlier field is unknown, so the first one is always taken.
     luma = first_field(luma, true);
   }
   return luma;

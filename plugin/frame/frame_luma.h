@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The luma of a video frame as the analysis wants it.
 #pragma once
 
 #include <cstdint>
@@ -49,12 +48,12 @@ namespace spidar {
 /// - size, flags: holds_picture() looks at the memory itself. The flags speak of rates that vary,
 ///   which the time stamps show, and of alpha, which is not read.
 
-/// The part of a frame that is shown, and therefore analysed: its crop meta, else all of it; of two
-/// views beside or above each other, the first.
+/// The part of a frame that is shown, and therefore analysed: its crop meta, else the whole frame;
+/// of two views beside or above each other, the first.
 PicturePart visible_part(const GstVideoFrame& frame);
 
-/// Width over height of a pixel as it is shown; 1 where the caps say nothing. Above kMaxAspect or
-/// below its inverse it is 1, too, because the header must be damaged: the widest pixels of any
+/// Width over height of a shown pixel; 1 where the caps say nothing. A ratio above kMaxAspect or
+/// below its inverse also counts as 1, because the header must be damaged: the widest pixels of any
 /// format have 2.84 (half of a side-by-side picture of PAL, 64:45).
 constexpr double kMaxAspect = 4;
 double pixel_aspect(const GstVideoInfo& info);
@@ -70,10 +69,11 @@ LumaLevels luma_levels(const GstVideoInfo& info);
 /// GStreamer believes a GstVideoMeta without checking.
 bool holds_picture(const GstVideoFrame& frame);
 
-/// Reads plane 0 of planar and semi-planar formats in place, with its stride and its depth in bits;
-/// computes luma from packed RGB and from formats that have to be unpacked; honours a crop meta;
-/// takes only the first field of interlaced frames, flagged or not, because the two fields are of
-/// two moments. With interlace-mode=mixed, the flags of each frame say whether it is interlaced.
+/// Returns the luma of a video frame for the analysis. Reads plane 0 of planar and semi-planar
+/// formats in place, with its stride and its depth in bits; computes luma from packed RGB and from
+/// formats that must be unpacked; honours a crop meta; takes only the first field of interlaced
+/// frames, flagged or not, because the two fields are of two moments. With interlace-mode=mixed,
+/// the flags of each frame say whether it is interlaced.
 class FrameLuma {
  public:
   /// In pixels; a crop may leave less.
@@ -81,8 +81,8 @@ class FrameLuma {
   static constexpr int kLargestSide = 8192;
   static bool takes(const GstVideoInfo& info);
 
-  /// The view is valid until the next call and for as long as the frame is mapped. Empty (no data)
-  /// when the crop leaves too little.
+  /// The view is valid until the next call and for as long as the frame is mapped. It is empty (no
+  /// data) when the crop leaves too little.
   ImageView view(const GstVideoFrame& frame);
 
  private:

@@ -34,7 +34,7 @@ void remove_ours(GstBuffer* buffer) {
                           GUINT_TO_POINTER(g_quark_from_static_string(kObjectName)));
 }
 
-/// The whole pixels of the frame that it touches; an object may reach over the edge.
+/// The whole pixels of the frame that the object touches; an object may reach over the edge.
 ObjectBox box_of(const MovingObject& object, const PicturePart& part, int width, int height) {
   const Eigen::Vector2d middle_px =
       Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height);
@@ -59,8 +59,8 @@ GstStructure* motion_of_object(const MovingObject& object, bool felt, int width,
 
 #ifdef SPIDAR_HAS_ANALYTICS
 
-/// Detections (GstAnalyticsODMtd) of others. Those of spidarmotion are regions as well, and are
-/// left out.
+/// Reads detections (GstAnalyticsODMtd) of other elements. Those of spidarmotion are also regions,
+/// and are left out.
 std::vector<ObjectBox> read_detections(GstBuffer* buffer) {
   std::vector<ObjectBox> boxes;
   GstAnalyticsRelationMeta* const meta = gst_buffer_get_analytics_relation_meta(buffer);
@@ -85,13 +85,13 @@ std::vector<ObjectBox> read_detections(GstBuffer* buffer) {
 }
 
 /// Attaches a box to `buffer`, which is writable, as a detection that is related to a track
-/// (GstAnalyticsTrackingMtd) with the number `id`. What is attached cannot be taken away again.
+/// (GstAnalyticsTrackingMtd) with the number `id`. The attached box cannot be removed again.
 void attach_detection(GstBuffer* buffer, const ObjectBox& box, uint32_t id) {
   GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer);
   if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer);
-  // When an object was seen first is not known here.
+  // The time at which an object was first seen is not known here.
   GstAnalyticsMtd detection, track;
-  constexpr gfloat kConfidence = 1;  // it has moved for some frames, or it would not be an object
+  constexpr gfloat kConfidence = 1;  // an object has moved for some frames
   if (gst_analytics_relation_meta_add_od_mtd(
           meta, g_quark_from_string(box.name.c_str()), static_cast<gint>(box.x),
           static_cast<gint>(box.y), static_cast<gint>(box.width), static_cast<gint>(box.height),
@@ -105,7 +105,7 @@ void attach_detection(GstBuffer* buffer, const ObjectBox& box, uint32_t id) {
 
 #else
 
-// Without GStreamer 1.24 or newer, frames have none.
+// Without GStreamer 1.24 or newer, frames have no detections.
 std::vector<ObjectBox> read_detections(GstBuffer*) {
   return {};
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Boxes of objects in a picture, as elements of other projects attach them to frames.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +17,26 @@
 
 namespace spidar {
 
-/// A box in pixels of the frame that has it; it may lie partly outside.
+/// A box of an object that another project's element attaches to a frame, in pixels of that frame;
+/// the box may lie partly outside.
 struct ObjectBox {
   std::string name;  ///< of its content, such as "face"
   double x, y, width, height;
 };
 
-/// The name of the objects that spidarmotion attaches.
 constexpr const char* kObjectName = "spidar-object";
 
-/// The regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a size are
-/// left out. Ids number the regions within a frame, and do not identify them in the next one.
+/// Reads the regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a
+/// size are left out. Ids number the regions within a frame, and do not identify them in the next
+/// one.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
-/// Attaches the objects in sight to `buffer`, which is writable, as regions and as detections.
+/// Attaches the visible objects to `buffer`, which is writable, as regions and as detections.
 /// Regions that another spidarmotion has attached are replaced.
 void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
-/// The boxes of a frame, in its picture as it is shown; null when there are none. The picture of a
-/// `packed` frame is one half of it.
+/// The boxes of a frame, in its shown picture; null when there are none. The picture of a `packed`
+/// frame is one half of it.
 std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& frame,
                                                         std::optional<touch::DepthLayout> packed,
                                                         const Orientation& turn);

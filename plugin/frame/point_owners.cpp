@@ -29,10 +29,10 @@ bool is_in_box(const MovingObject& object, const Eigen::Vector2d& at_px) {
   return (distance_px.array() <= object.size_px.array() / 2).all();
 }
 
-/// Assigns the point to the background if it follows it, otherwise to the object with the most
-/// similar velocity among those whose box contains the point.
+/// Assigns the point to the background if the point follows it, otherwise to the object with the
+/// most similar velocity among those whose box contains the point.
 void find_owner(const Frame& frame, OwnedPoint& point) {
-  // Relative to the centre of the film.
+  // The position is relative to the centre of the film.
   const Eigen::Vector2d middle_px(0.5 * (frame.width() - 1), 0.5 * (frame.height() - 1));
   const Eigen::Vector2d from_px = Eigen::Vector2d(point.from.x_px, point.from.y_px) - middle_px;
   const Eigen::Vector2d to_px = Eigen::Vector2d(point.to.x_px, point.to.y_px) - middle_px;
@@ -89,7 +89,7 @@ Eigen::Vector2d force_origin_px(const DrawnFrame& report) {
     return middle_px;
   }
   mean_px /= static_cast<double>(on_px.size());
-  // The mean of a curved object lies beside it.
+  // The mean position of a curved object lies outside it.
   return *std::min_element(on_px.begin(), on_px.end(), [&](const auto& a, const auto& b) {
     return (a - mean_px).squaredNorm() < (b - mean_px).squaredNorm();
   });

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a frame's points belong to, and which objects are felt, to be shown.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +11,31 @@
 
 namespace spidar {
 
-/// Ids of the objects in sight whose motion is felt: one, or all with MotionKind::kObjects when
-/// none was chosen; none while only the surface is felt.
+/// Ids of the visible objects whose motion is felt: one, or all with MotionKind::kObjects when none
+/// was chosen; none while only the surface is felt.
 std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 
-/// Where the arrow of the force begins, in pixels of the frame: on the one object that is
-/// felt, where its points are and not merely its box, else in the middle of the film.
+/// Where the arrow of the force begins, in pixels of the frame: on the points of the one object
+/// that is felt, not merely in its box, else in the middle of the film.
 Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 
 /// An object's box, in pixels of the frame, of which `film` is the part that was analysed.
 Eigen::AlignedBox2d box_px(const MovingObject& object, const PicturePart& film);
 
-/// Assigns points to the background or to objects, and follows them from frame to frame.
+/// Assigns points to the background or to objects for display, and follows them from frame to
+/// frame.
 class PointOwners {
  public:
-  /// Fills in points, lost and felt of a frame that was analysed.
+  /// Fills in points, lost and felt of an analysed frame.
   void find(DrawnFrame& report);
-  /// Call before frames that are not analysed.
+  /// Call this before frames that are not analysed.
   void reset() { compares_ = false; }
 
  private:
   void compare(DrawnFrame& report);
 
   std::vector<OwnedPoint> before_;
-  bool compares_ = false;  ///< the previous frame was analysed for points
+  bool compares_ = false;  ///< whether points of the previous frame are known
 };
 
 }  // namespace spidar

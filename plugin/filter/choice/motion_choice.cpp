@@ -18,7 +18,6 @@ namespace {
 /// Nobody minds a last rule that is a little longer than the film.
 constexpr gint64 kTolerance_ns = 1'000'000'000;
 
-/// Where the rule ends, as the rest of a sentence.
 std::string until(const FeelRule& rule) {
   return rule.to_ns == FeelRule::kNoEnd ? "until the film ends" : "until " + time_text(rule.to_ns);
 }
@@ -83,7 +82,7 @@ void MotionChoice::complete(const GstVideoFrame& frame, const Orientation& turn,
                             FrameSettings& settings) {
   AnalyzerSettings& analyzer = settings.analyzer;
   analyzer.pointer = turn.stored_position(analyzer.pointer);
-  // The sink's mouse is at such a position already.
+  // A position of the sink's mouse already refers to the frame before its turn.
   if (settings.pointer == Pointer::Kind::kMouse) {
     analyzer.pointer = mouse_.position().value_or(analyzer.pointer);
   }

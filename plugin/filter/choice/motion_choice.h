@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a person chose to feel, and the reports when that cannot be felt.
 #pragma once
 
 #include <atomic>
@@ -20,12 +19,12 @@
 
 namespace spidar::filter {
 
-/// The rules of `feel`, and the mouse. Streaming thread, unless stated otherwise.
+/// What a person chose to feel, by the rules of `feel` and by the mouse, and the reports when that
+/// cannot be felt. Streaming thread, unless stated otherwise.
 class MotionChoice {
  public:
   explicit MotionChoice(GstElement* element) : element_(element) {}
 
-  /// Any thread.
   MousePointer& mouse() { return mouse_; }
   /// Null when there are none. Any thread.
   std::shared_ptr<const FeelRules> rules() const {
@@ -33,30 +32,29 @@ class MotionChoice {
     return named_.rules;
   }
 
-  /// Another stream begins, from the file `film` or, when that is empty, from elsewhere.
+  /// Begins another stream, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
 
-  /// The property `feel` was set. Any thread.
+  /// Tells that the property `feel` was set. Any thread.
   void rules_changed() { is_read_ = false; }
-  /// Whether read() has to be called before the next frame. True once after each change.
+  /// Whether read() must be called before the next frame. True once after each change.
   bool is_to_read() { return !is_read_.exchange(true); }
   /// Reads the rules that `feel` means, and reports on the bus what is wrong with them. The
   /// duration of the film is queried from the peer of `sink`.
   void read(const std::string& feel, GstPad* sink);
 
   /// Completes the settings of `frame` by what rules, mouse and boxes choose. `turn` turns the
-  /// frame before it is shown; the pointer of `settings` is a position in the frame as it is shown,
-  /// and becomes one in the frame as it is stored.
+  /// frame before it is shown. The pointer of `settings` is a position in the shown frame, and
+  /// becomes one in the stored frame.
   void complete(const GstVideoFrame& frame, const Orientation& turn, FrameSettings& settings);
 
-  /// Says on the bus what became of each rule and click, once.
+  /// Posts once what became of each rule and click.
   void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);
 
  private:
   void warn_of_times(GstPad* sink);
   void warn_of_mean(MotionKind motion);
   void tell_of_rule(const FeelRule& rule, Chosen::State state);
-  /// The time of the previous frame in the film.
   std::string seen_text() const;
   void tell_of_click(const KeptObject& kept, Chosen::State state);
 
@@ -64,7 +62,7 @@ class MotionChoice {
   MousePointer mouse_;
   std::string film_;
   std::atomic<bool> is_read_{false};
-  mutable std::mutex mutex_;  ///< held to change `named_`, and to read it in another thread
+  mutable std::mutex mutex_;  ///< guards changes of `named_`, and its use in other threads
   NamedRules named_;
   bool warned_of_mean_ = false;
   std::set<std::pair<int, Chosen::State>> told_;  ///< line and state

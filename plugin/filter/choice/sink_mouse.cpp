@@ -13,7 +13,7 @@
 namespace spidar::filter {
 namespace {
 
-// Sinks of X send the wheel as buttons.
+// X sinks send the wheel as buttons.
 constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;
 
 /// The mouse may be beside the picture, in the black bars of a window.
@@ -29,7 +29,7 @@ std::optional<GstVideoInfo> info_of(GstPad* pad) {
   return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
 }
 
-/// With its position in pixels.
+/// Returns the position in pixels.
 std::optional<SinkMouse> parse(GstEvent* event) {
   SinkMouse mouse;
   gdouble &x = mouse.position.x(), &y = mouse.position.y(), sideways = 0;

@@ -18,8 +18,8 @@
 namespace spidar::filter {
 namespace {
 
-/// For as long as the element is read and not longer, because drawing may take long; null when it
-/// is gone.
+/// Holds the element only while it is read, because drawing may take long; null when the element is
+/// gone.
 Ref<GstElement> hold(GWeakRef& weak) {
   return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
 }
@@ -41,8 +41,8 @@ double number_of(const GValue* value) {
   return g_value_transform(value, &number) ? g_value_get_double(&number) : 0;
 }
 
-/// Returns false for a property that the element inherits, that cannot be changed while playing or
-/// is not a number.
+/// Returns false for a property that the element inherits, that cannot be changed while playing, or
+/// that is not a number.
 bool describe(GstElement* element, const GParamSpec* spec, window::Setting& setting) {
   if (spec->owner_type != G_OBJECT_TYPE(element)) return false;
   if ((spec->flags & GST_PARAM_MUTABLE_PLAYING) == 0) return false;
@@ -70,8 +70,8 @@ bool describe(GstElement* element, const GParamSpec* spec, window::Setting& sett
   return true;
 }
 
-/// The window has what is felt and seen in it; not what a program asks for, nor a switch that would
-/// close it.
+/// Leaves out properties that ask for output of a program, and the switch that would close the
+/// window.
 bool is_offered(const std::string& setting) {
   constexpr std::array<const char*, 4> kOfPrograms{"debug-window", "post-messages", "attach-meta",
                                                    "on-device-error"};
@@ -166,11 +166,11 @@ class ElementSource final : public window::Source {
     try {
       std::string done = save_feel(feel, film, edits);
       if (!feel.empty() && feel != "auto" && !is_feel_file(feel)) done += " feel=auto reads it.";
-      // Setting it reads the file anew.
+      // Setting the property reads the file anew.
       g_object_set(held.get(), "feel", feel.empty() ? "auto" : feel.c_str(), nullptr);
       return {true, done};
     } catch (const std::runtime_error& error) {
-      // Without the folder, for which a small window has no room.
+      // A small window has no room for the folder.
       std::string why = error.what();
       const std::string folder = film.substr(0, film.rfind('/') + 1);
       if (!folder.empty() && why.rfind(folder, 0) == 0) why.erase(0, folder.size());
@@ -188,9 +188,10 @@ class ElementSource final : public window::Source {
     });
   }
 
-  /// From the element upstream, as a sink would: whatever reads the film seeks for all streams. In
-  /// a thread of GStreamer's, because seeking may take long and waits for a change of the state,
-  /// which in turn waits for the thread of the window. Of several that wait, the last is executed.
+  /// Seeks from the element upstream, as a sink would: the demuxer seeks for all streams. A thread
+  /// of GStreamer's does this, because a seek may take long and waits for a change of the state,
+  /// which in turn waits for the thread of the window. Of several waiting seeks, the last is
+  /// executed.
   void seek(int64_t to_ns) override {
     const Ref<GstElement> held = hold(element_);
     if (!held || sought_ns_->exchange(to_ns) != kNone_ns) return;
@@ -239,7 +240,7 @@ class ElementSource final : public window::Source {
   }
 
   GWeakRef element_;
-  // Only while the element is held.
+  // Valid only while the element is held.
   HapticOutput& output_;
   const NoForceWatch& no_force_;
   MotionChoice& choice_;
@@ -247,7 +248,7 @@ class ElementSource final : public window::Source {
   std::vector<window::Setting> settings_;  ///< without their values
   std::vector<std::string> presets_;
   const std::shared_ptr<std::atomic<int64_t>> sought_ns_ =
-      std::make_shared<std::atomic<int64_t>>(kNone_ns);  ///< until a seek to it begins
+      std::make_shared<std::atomic<int64_t>>(kNone_ns);  ///< the target until the seek begins
 };
 
 }  // namespace

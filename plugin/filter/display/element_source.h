@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An element as a window sees it.
 #pragma once
 
 #include <memory>
@@ -16,8 +15,8 @@
 
 namespace spidar::filter {
 
-/// Why nothing is felt, for a window, which knows whether the film is paused: in a pause, no frame
-/// came in the last second, whatever is in the film.
+/// Returns why nothing is felt, for a window, which knows whether the film is paused: in a pause,
+/// no frame came in the last second, whatever is in the film.
 inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
   if (!is_playing && reason != NoForceReason::kEnded) return "The video is paused.";
   if (reason == NoForceReason::kNotPlaying) {
@@ -26,8 +25,8 @@ inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
   return sentence(reason);
 }
 
-/// Keeps no reference: the element may be destroyed while the window is open. The other arguments
-/// belong to `element` and live as long.
+/// Returns an element as a window sees it, without a reference: the element may be destroyed while
+/// the window is open. The other arguments belong to `element` and live as long.
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
                                                     MotionChoice& choice, UnreadMessages& unread);

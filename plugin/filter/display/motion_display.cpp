@@ -17,7 +17,8 @@ namespace spidar::filter {
 
 namespace {
 
-/// Whether subtitles come to it besides pictures: it draws them, or writes both into a file.
+/// Whether the element receives subtitles besides pictures, and draws them or writes both to a
+/// file.
 bool takes_subtitles(GstElement* element) {
   GST_OBJECT_LOCK(element);
   bool takes = false;
@@ -33,7 +34,6 @@ bool takes_subtitles(GstElement* element) {
 
 }  // namespace
 
-/// `report` with what is drawn of it.
 DrawnFrame MotionDisplay::drawn(const FrameReport& report, const AnalyzerSettings& settings) {
   DrawnFrame drawn;
   static_cast<FrameReport&>(drawn) = report;
@@ -68,7 +68,8 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
                                              report.frame.shown_height_px)
                            .norm();
   }
-  // Before the overlay draws into the frame, because the window draws arrows of its own.
+  // The window gets the frame before the overlay draws into it, because the window draws its own
+  // arrows.
   if (shown_in && shown_in->wants_frame()) shown_in->give(frame, shown);
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
@@ -130,7 +131,8 @@ void MotionDisplay::close_window() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closing.swap(window_);
   }
-  // Here, and not where the last reference goes, which may be the streaming thread's.
+  // The last reference may end in the streaming thread, which must not wait, so the window closes
+  // here.
   if (closing) closing->close();
 }
 

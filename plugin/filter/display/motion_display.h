@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where a frame's motion and force are shown besides being rendered.
 #pragma once
 
 #include <chrono>
@@ -22,7 +21,7 @@
 
 namespace spidar::filter {
 
-/// One element's overlay, meta and debug window.
+/// One element's overlay, meta and debug window, which show the motion and force of a frame.
 class MotionDisplay {
  public:
   /// The other arguments belong to `element` and live as long.
@@ -41,26 +40,25 @@ class MotionDisplay {
   /// overlay is on, and its buffer is writable when metas are attached.
   void show(const FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
 
-  /// Called instead of show() for a frame that was not processed.
+  /// Call this instead of show() for a frame that was not processed.
   void reset() { owners_.reset(); }
 
-  /// Another stream begins, from the file `film` or, when that is empty, from elsewhere.
+  /// Begins another stream, from the file `film` or, when that is empty, from elsewhere.
   void begin_stream(const std::string& film);
-  /// What is linked may have changed.
+  /// Tells that other elements may be linked now.
   void begin_segment();
 
   // --- any thread
 
   /// The hand that the mouse of a sink leads.
   SinkHand& hand() { return hand_; }
-  /// The element as a window sees it.
   std::shared_ptr<window::Source> source() const;
   void open_window();
-  /// Returns when the window is gone, or after Window::kPatience.
+  /// Returns when the window is closed, or after Window::kPatience.
   void close_window();
   /// For tests and save_window(); null while there is no window.
   std::shared_ptr<window::Window> window() const;
-  /// Writes what the window shows to a PNG file. Returns an empty string, or why that fails.
+  /// Writes the picture of the window to a PNG file. Returns an empty string, or why that fails.
   std::string save_window(const std::string& path);
 
  private:
@@ -80,7 +78,7 @@ class MotionDisplay {
   FilmScene film_;  ///< for the window
   uint32_t epoch_ = 0;
 
-  mutable std::mutex mutex_;  ///< never held while a window opens or closes
+  mutable std::mutex mutex_;  ///< not held while a window opens or closes
   std::shared_ptr<window::Window> window_;
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The mouse in the window of a video sink as the hand of the simulated device.
 #pragma once
 
 #include <mutex>
@@ -13,13 +12,13 @@
 
 namespace spidar::filter {
 
-/// While the picture is touched, the mouse leads the hand as in the debug window, see
-/// window::MouseHand. Thread-safe.
+/// Lets the mouse in the window of a video sink lead the simulated hand while the picture is
+/// touched, as in the debug window, see window::MouseHand. Thread-safe.
 class SinkHand {
  public:
   explicit SinkHand(HapticOutput& output) : output_(output) {}
 
-  /// Called for each frame, which is `width` × `height` pixels large.
+  /// Call this for each frame of `width` × `height` pixels.
   void update(const FrameReport& report, int width, int height) {
     if (!report.analyzed) return;
     const bool touched = report.touch.on && width > 0 && height > 0;
@@ -31,7 +30,8 @@ class SinkHand {
     const PicturePart& part = report.visible;
     picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
   }
-  /// False when there is no hand to lead: nothing is touched, or the device is not simulated.
+  /// Returns false when there is no hand to lead: nothing is touched, or the device is not
+  /// simulated.
   bool update(const SinkMouse& mouse) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!touched_) return false;
@@ -55,8 +55,8 @@ class SinkHand {
   std::mutex mutex_;
   bool touched_ = false;
   GripPointer pointer_;
-  window::Rect picture_;  ///< what is touched, as fractions of the frame
-  window::Mouse mouse_;   ///< its position is a fraction of the frame, too
+  window::Rect picture_;  ///< the touched part, as fractions of the frame
+  window::Mouse mouse_;   ///< its position is a fraction of the frame
   window::MouseHand hand_;
 };
 

@@ -12,8 +12,8 @@
 namespace spidar::filter {
 namespace {
 
-/// Makes the relief of a frame that was analysed, whose brightness is `luma` and which the sink
-/// shows at `shown_ns`. Fills in the fields of the report on touching. Streaming thread.
+/// Makes the relief of an analysed frame, whose brightness is `luma` and which the sink shows at
+/// `shown_ns`. Fills in the report's fields on touching. Streaming thread.
 void touch_frame(const PassingFrame& passing, const ImageView& luma, int64_t shown_ns,
                  const HapticOutput& output, ReliefStream& reliefs, FrameReport& report) {
   const TouchProperties& touch = passing.settings.touch;
@@ -49,14 +49,14 @@ void FilmRenderer::reset() {
 
 void FilmRenderer::run_out(GstClockTime running_time) {
   begin_run();
-  if (!is_time(running_time)) return;  // scheduled wrenches expire without help
+  if (!is_time(running_time)) return;  // scheduled wrenches expire by themselves
   feed_.schedule.add({static_cast<int64_t>(running_time), 0, Wrench()});
 }
 
 void FilmRenderer::begin_gap(GstClockTime running_time) {
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);
-  } else if (!gap_ns_) {  // while no frame comes, the force ends without help
+  } else if (!gap_ns_) {  // without frames, the force ends by itself
     gap_ns_ = static_cast<int64_t>(running_time);
   }
 }
@@ -64,7 +64,7 @@ void FilmRenderer::begin_gap(GstClockTime running_time) {
 void FilmRenderer::end_gap(int64_t running_ns) {
   constexpr int64_t kLate_ns = 10'000'000;
   if (!gap_ns_ || running_ns < *gap_ns_) return;
-  // A frame that comes when the next one was due shows that there was no gap.
+  // A frame at the time when the next one was due shows that there was no gap.
   if (running_ns > pacer_.next_ns() + kLate_ns) run_out(static_cast<GstClockTime>(*gap_ns_));
   gap_ns_.reset();
 }
@@ -86,8 +86,8 @@ Wrench FilmRenderer::shown_wrench(const Frame& frame, const Orientation& turn) c
   return {motion_fraction_ * shown.force_N, motion_fraction_ * shown.torque_Nm};
 }
 
-/// `shown` in place of the frame's own wrench. Between two pictures, a motion is measured as it is
-/// halfway between them; during a repeated one, the next picture is not there yet.
+/// Schedules `shown` instead of the frame's own wrench. A motion between two pictures is that of
+/// the moment halfway between them; during a repeated picture, the next one is not there yet.
 void FilmRenderer::schedule(const Frame& frame, const PacedTime& time, bool moved,
                             const Wrench& shown) {
   if (!frame.is_continuation()) picture_ns_ = time.running_ns;
@@ -115,7 +115,7 @@ void FilmRenderer::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   pacer_.advance(time);
 }
 
-/// Whether a frame follows the one before in time, and if not, why it cannot be analysed.
+/// Whether a frame follows the one before in time; if not, fills in why it cannot be analysed.
 bool FilmRenderer::follows(const PassingFrame& frame, FrameReport& report) {
   follow(report.stamp);
   end_gap(report.stamp.running_ns);
@@ -129,7 +129,7 @@ bool FilmRenderer::follows(const PassingFrame& frame, FrameReport& report) {
   return true;
 }
 
-/// Finds the picture of a frame and analyses it. False when it has none.
+/// Finds the picture of a frame and analyses it. Returns false when the frame has no picture.
 bool FilmRenderer::analyze(const PassingFrame& frame, const ImageView& luma, int64_t paced_ns,
                            FrameReport& report) {
   const std::optional<touch::DepthLayout> packed = frame.settings.touch.packed();

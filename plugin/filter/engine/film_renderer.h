@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The analysis of the frames that pass.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +17,7 @@
 
 namespace spidar::filter {
 
-/// Where the grip points at the picture as it is shown; nothing while no device runs.
+/// Where the grip points in the shown picture; nothing while no device runs.
 std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output);
 
 /// A frame that passes the element.
@@ -28,31 +27,30 @@ struct PassingFrame {
   const FrameSettings& settings;
 };
 
-/// Streaming thread.
+/// Analyses the frames that pass. Streaming thread.
 class FilmRenderer {
  public:
-  /// `feed` outlives this.
+  /// `feed` must outlive this object.
   explicit FilmRenderer(HapticFeed& feed) : feed_(feed) {}
 
   void configure(const AnalyzerSettings& settings) { analyzer_.configure(settings); }
 
-  /// The next frame is not compared with the previous one.
+  /// Begins a run: the next frame is not compared with the previous one.
   void begin_run() { analyzer_.reset(); }
-  /// Schedules what is rendered while the frame is shown. Fills in the report, except for the times
-  /// of its frame, or says in it why the frame cannot be analysed.
+  /// Schedules the force while the frame is shown. Fills in the report, except for the times of its
+  /// frame, or why the frame cannot be analysed.
   void process(const PassingFrame& frame, FrameReport& report);
-  /// Called instead of process() for a frame without a picture, which is turned by `turn` before it
-  /// is shown.
+  /// Call this instead of process() for a frame without a picture, which is turned by `turn` before
+  /// it is shown.
   void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
-  /// Running time begins anew.
+  /// Tells that running time begins anew.
   void reset();
-  /// There are no frames from this running time on, except for those that the decoder holds: the
+  /// Tells that there are no frames from this running time on, except for those in the decoder: the
   /// gap event of a demuxer overtakes them, and begins too early when the last one is not the
   /// newest.
   void begin_gap(GstClockTime running_time);
-  /// The stream has ended.
   void end_of_stream();
 
  private:
@@ -71,9 +69,9 @@ class FilmRenderer {
   MotionAnalyzer analyzer_;
   FramePacer pacer_;
   uint32_t epoch_ = 0;
-  int64_t picture_ns_ = 0;         ///< at which the picture of the newest frame was first shown
+  int64_t picture_ns_ = 0;         ///< when the picture of the newest frame was first shown
   std::optional<int64_t> gap_ns_;  ///< where a gap begins, unless a frame comes there
-  double motion_fraction_ = 1;     ///< of the newest frame's wrench
+  double motion_fraction_ = 1;     ///< for the newest frame's wrench
 };
 
 }  // namespace spidar::filter

@@ -57,8 +57,8 @@ void HapticFeed::skip(GstClockTime duration) {
 }
 
 void HapticFeed::change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
-  // Drops everything from a track; the next frame adds it again at the new rate. This comes first,
-  // because what the schedule forwards after it must stay.
+  // Drops all samples of a track; the next frame adds them again at the new rate. This comes first,
+  // because samples that the schedule forwards later must stay.
   track_samples.clear();
   schedule.change_rate(multiplier, running_time, upstream);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The orientation in which the frames of a stream are shown, from its tags.
 #pragma once
 
 #include <optional>
@@ -33,15 +32,16 @@ inline Orientation turn_of(GstVideoOrientationMethod method) {
   }
 }
 
-/// Follows the tag `image-orientation` by the rules of videoflip: the tag of the stream counts, and
-/// that of the whole film where the stream has none.
+/// The orientation in which the frames of a stream are shown. Follows the tag `image-orientation`
+/// by the rules of videoflip: the tag of the stream counts, and that of the whole film where the
+/// stream has none.
 class StreamOrientation {
  public:
-  /// Another stream begins, whose tags are not known yet.
+  /// Begins another stream, whose tags are not known yet.
   void begin_stream() { *this = {}; }
   void update(const GstTagList* tags) {
     GstVideoOrientationMethod method;
-    // The function does not change the tags.
+    // The cast is safe because the function does not change the tags.
     if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;
     const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
     (of_film ? of_film_ : of_stream_) = turn_of(method);
@@ -53,7 +53,7 @@ class StreamOrientation {
 };
 
 /// Whether an element before `sink` turns the picture by the tag. The videoflip of GStreamer 1.22
-/// passes the tag on all the same, where newer ones replace it by "rotate-0".
+/// still passes the tag on, where newer ones replace it by "rotate-0".
 inline bool follows_tag_upstream(GstPad* sink) {
   return is_upstream(sink, [](GstElement* element) {
     if (!GST_IS_VIDEO_DIRECTION(element)) return false;

@@ -12,17 +12,17 @@
 namespace spidar::filter {
 namespace {
 
-/// Where frames are missing for longer, so are the samples that they would be shown with.
+/// A longer gap between frames is a gap in the samples, too.
 constexpr int64_t kMaxMissing_ns = 500'000'000;
 
-/// Backwards, the track is read in pieces of so much.
+/// Backwards, the track is read in pieces of this length.
 constexpr int64_t kPiece_ns = 4'000'000'000;
-/// What is so far ahead is read up to, and not sought.
+/// Up to this distance, the track is read on instead of seeking.
 constexpr int64_t kNear_ns = ReadAhead::kAhead_ns;
-/// So much is kept around a frame: for a step back, or a rate that changes.
+/// How much is kept around a frame: for a step back, or a rate that changes.
 constexpr int64_t kKept_ns = 1'000'000'000;
 
-/// Without the samples at or after `time_ns`.
+/// Returns the block without the samples at or after `time_ns`.
 TrackBlock cut(TrackBlock block, int64_t time_ns) {
   size_t count = block.count;
   while (count > 0 && block.time_ns(count - 1) >= time_ns) --count;
@@ -31,12 +31,12 @@ TrackBlock cut(TrackBlock block, int64_t time_ns) {
   return block;
 }
 
-/// What is to be seen first of a frame, in the film.
+/// The earliest shown moment of a frame, in the film.
 int64_t first_ns(const FrameStamp& frame) {
   return frame.stream_ns + (frame.rate < 0 ? frame.length_ns : 0);
 }
 
-/// With running times.
+/// Returns the block with running times.
 TrackBlock timed(const TrackBlock& block, const FrameStamp& frame) {
   TrackBlock shown = block;
   const auto running_at = [&frame](int64_t stream_ns) {
@@ -73,7 +73,7 @@ void TrackReplay::jump(int64_t time_ns) {
   late_ = false;
 }
 
-/// False when there is no other block now.
+/// Returns false when there is no other block now.
 bool TrackReplay::append() {
   const auto now = std::chrono::steady_clock::now();
   TrackBlock block;
@@ -97,14 +97,14 @@ void TrackReplay::append_until(int64_t time_ns) {
   }
 }
 
-/// Reads what is before the window.
+/// Reads the blocks before the window.
 void TrackReplay::prepend(int64_t from_ns) {
   std::deque<TrackBlock> later = std::move(window_);
   const int64_t end_ns = end_ns_;
   const int64_t seam_ns = later.empty() ? begin_ns_ : std::min(begin_ns_, later.front().begin_ns);
   jump(std::max<int64_t>(from_ns - kPiece_ns, 0));
   append_until(seam_ns);
-  if (end_ns_ < seam_ns) return;  // it comes too late
+  if (end_ns_ < seam_ns) return;  // the block comes too late
   while (!window_.empty() && window_.back().begin_ns >= seam_ns) window_.pop_back();
   if (!window_.empty()) window_.back() = cut(window_.back(), seam_ns);
   window_.insert(window_.end(), later.begin(), later.end());
@@ -152,7 +152,7 @@ void TrackReplay::play(const FrameStamp& frame,
   const int64_t until_ns = expected_ns_ + margin_ns;
   if (backwards) {
     cover(until_ns, at_ns, true);
-    // What is not there yet of the end comes first.
+    // The missing blocks of the end come first.
     const bool is_whole = end_ns_ >= std::min(at_ns, given_ns_);
     for (auto block = window_.rbegin();
          is_whole && block != window_.rend() && end_of(*block) > until_ns; ++block) {
@@ -210,7 +210,7 @@ void TrackRenderer::begin_stream(const std::string& track, const std::string& fi
 
 void TrackRenderer::take_loaded(int64_t frame_ns, bool has_rules) {
   if (const std::optional<tracks::LoadedTrack> loaded = loader.take()) {
-    // The wrenches of frames that came before it stay: some of them may be the end of another film.
+    // The scheduled wrenches of earlier frames stay: some of them may be the end of another film.
     if (auto blocks = felt_.judge(*loaded, frame_ns, has_rules)) {
       set_track(std::move(blocks), loaded->path);
     }
@@ -226,7 +226,7 @@ void TrackRenderer::play(const FrameStamp& stamp, FrameReport& report) {
   ++frames_;
   replay_.play(shown, [this](const TrackBlock& block) { feed_.track_samples.add(block); });
   report.frame.wrench = replay_.largest(shown);
-  report.frame.interval_ns = stamp.length_ns;  // so long it is there
+  report.frame.interval_ns = stamp.length_ns;  // how long the frame is shown
   report.no_force = reason_in_track(report.frame.wrench, feed_.output.snapshot());
   const bool is_weak = report.no_force == NoForceReason::kTooWeak;
   feed_.no_force.add(shown.running_ns, is_weak ? Wrench() : report.frame.wrench, report.no_force);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic track that is rendered in place of what a video's frames would give.
 #pragma once
 
 #include <atomic>
@@ -22,26 +21,25 @@
 
 namespace spidar::filter {
 
-/// Gives the blocks of a track that are due, with their running times.
+/// Gives the due blocks of a haptic track, which replaces the analysis, with their running times.
 class TrackReplay {
  public:
-  /// The samples of a frame go on for this long after its end, because the next one may be late.
+  /// The samples of a frame continue for this long after its end, because the next one may be late.
   static constexpr int64_t kMargin_ns = 60'000'000;
   /// The longest time that a frame waits for its samples: after a seek, or where they are read
   /// slowly for the first time.
   static constexpr std::chrono::seconds kLongestWait{1};
 
-  /// Null for no track.
   void set_track(std::shared_ptr<ReadAhead> track);
   bool has_track() const { return track_ != nullptr; }
 
   /// Gives the samples that are rendered while the frame is shown and were not given before, at the
-  /// running time of the sink. In another epoch, at another rate and after a gap, it begins with
-  /// the block that the frame is in.
+  /// running time of the sink. In another epoch, at another rate and after a gap, begins with the
+  /// block of the frame.
   void play(const FrameStamp& frame, const std::function<void(const TrackBlock&)>& give);
 
-  /// The largest wrench of the track while the frame of the last play() is shown; rest where it has
-  /// none.
+  /// The largest wrench of the track while the frame of the last play() is shown; zero where the
+  /// track has none.
   Wrench largest(const FrameStamp& frame) const;
 
  private:
@@ -56,33 +54,34 @@ class TrackReplay {
   // All blocks that end after begin_ns_ and begin before end_ns_.
   std::deque<TrackBlock> window_;
   int64_t begin_ns_ = 0, end_ns_ = 0;
-  bool continues_ = true;  ///< the next block of track_ is the one behind the window
+  bool continues_ = true;  ///< the next block of track_ follows the window
   bool late_ = false;      ///< no more frames wait until a block has come
   std::optional<uint32_t> epoch_;
   double rate_ = 1;
   int64_t expected_ns_ = 0;  ///< stream time of the next frame
-  int64_t given_ns_ = 0;     ///< end of what was given; backwards, its beginning
+  int64_t given_ns_ = 0;     ///< the end of the given samples; backwards, their beginning
 };
 
 class TrackRenderer {
  public:
-  /// `feed` outlives this.
+  /// `feed` must outlive this object.
   TrackRenderer(GstElement* element, HapticFeed& feed) : feed_(feed), felt_(element) {}
 
-  /// Another film begins, with this property `track`. Frames are analysed until take_loaded() finds
-  /// its track. What was given of the previous one is still rendered: its frames are on their way
-  /// to the screen.
+  /// Begins another film with this property `track`. Frames are analysed until take_loaded() finds
+  /// its track. The given samples of the previous film are still rendered: its frames are on their
+  /// way to the screen.
   void begin_stream(const std::string& track, const std::string& film);
-  /// For each frame, which lasts `frame_ns`, before has_track(). `has_rules`: see FeltTrack.
+  /// Call this for each frame, which lasts `frame_ns`, before has_track(). For `has_rules` see
+  /// FeltTrack.
   void take_loaded(int64_t frame_ns, bool has_rules);
-  /// Whether a track is rendered, and frames are not analysed.
+  /// Whether a track replaces the analysis of frames.
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.
   std::string path() const;
-  /// The number of frames of this track. Any thread.
   uint64_t frames() const { return frames_; }
 
-  /// The report's wrench is the largest of the track while the frame is shown.
+  /// Renders the track for a frame. The report's wrench is the largest one while the frame is
+  /// shown.
   void process(FrameReport& report);
   void pass_gap(const FrameStamp& stamp);
 
@@ -95,7 +94,7 @@ class TrackRenderer {
   HapticFeed& feed_;
   tracks::FeltTrack felt_;
   TrackReplay replay_;
-  mutable std::mutex path_mutex_;  ///< guards path_
+  mutable std::mutex path_mutex_;
   std::shared_ptr<const std::string> path_;
   std::atomic<uint64_t> frames_{0};
 };

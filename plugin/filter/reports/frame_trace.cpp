@@ -12,11 +12,11 @@
 namespace spidar::filter {
 namespace {
 
-// What files of every version begin with.
+// The beginning of the files of every version.
 constexpr const char* kFirstColumn = "running_time_ns,";
 constexpr const char* kFirstKey = "{\"running_time_ns\":";
 
-/// In small or capital letters.
+/// Ignores case.
 bool ends_with(std::string_view text, std::string_view end) {
   return text.size() >= end.size() &&
          strncasecmp(text.data() + text.size() - end.size(), end.data(), end.size()) == 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A file with one line for each frame, to be looked at later.
 #pragma once
 
 #include <cstdint>
@@ -18,18 +17,19 @@ namespace spidar::filter {
 /// express it.
 std::string json_line(const FrameReport& report);
 
-/// Writes CSV with a header line where the name ends in .csv; where it ends in .jsonl, what
-/// json_line() gives, with objects and background; numbers are written without regard to the
-/// locale, with the digits that reading them back needs.
+/// A file with one line for each frame. If its name ends in .csv, the file is CSV with a header
+/// line; if the name ends in .jsonl, each line is json_line(), with objects and background. Numbers
+/// ignore the locale and have the digits that reading them back needs.
 class FrameTrace {
  public:
   /// Returns an empty string, or the reason why the file cannot be written.
   std::string open(const std::string& path);
 
-  /// Does not wait for the file. Returns errno of the write that ended the trace; 0 if none did.
+  /// Writes without waiting for the file. Returns errno of the write that ended the trace; 0 if
+  /// none.
   int write(const FrameReport& report);
 
-  /// Writes the last rows, as far as they are taken.
+  /// Writes the last rows, as far as the file accepts them.
   LineWriter::Status close() { return file_.close(); }
 
  private:
@@ -37,7 +37,7 @@ class FrameTrace {
 
   LineWriter file_;
   bool is_json_ = false;
-  std::string line_;  ///< of the previous frame; its memory is reused
+  std::string line_;  ///< kept because its memory is reused
 };
 
 }  // namespace spidar::filter

@@ -38,8 +38,8 @@ GstStructure* add_copy(GstBuffer* to, GstBuffer* from) {
   return copy;
 }
 
-/// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros where
-/// nothing is.
+/// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros as
+/// padding.
 struct SerialisedPoint {
   guint32 id, zero_after_id;
   gdouble from_x, from_y, to_x, to_y;
@@ -48,14 +48,15 @@ struct SerialisedPoint {
 static_assert(sizeof(SerialisedPoint) == 48);
 
 void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& points) {
-  // In one piece: a GVariant of each number takes longer than finding the motion does.
+  // The array is made in one piece: a GVariant of each number takes longer than the analysis of
+  // motion.
   GVariant* array = g_variant_new_fixed_array(
       g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_POINTS_TYPE)), points.data(),
       points.size(), sizeof(SerialisedPoint));
   gst_structure_set(structure, "points", G_TYPE_VARIANT, array, nullptr);
 }
 
-/// What a map of the picture changes.
+/// Writes the values that a map of the picture changes.
 void set_mapped(GstStructure* structure, const GstSpidarFrameMotion& m, const PicturePart& film) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y", G_TYPE_DOUBLE,
@@ -67,7 +68,7 @@ void set_mapped(GstStructure* structure, const GstSpidarFrameMotion& m, const Pi
   area_fields(film, to);
 }
 
-/// `position` has (0, 0) at the centre of the first pixel.
+/// Maps `position`, where (0, 0) is the centre of the first pixel.
 Eigen::Vector2d mapped(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector2d half{0.5, 0.5};
   return (map * (position + half).homogeneous()).hnormalized() - half;
@@ -92,26 +93,26 @@ PicturePart mapped_area(const Eigen::Matrix3d& map, GstBuffer* from, const GstVi
   return {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
 }
 
-/// How lengths and directions change where `position` is.
+/// How lengths and directions change at `position`.
 Eigen::Matrix2d linear_at(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector3d to = map * position.homogeneous();
   const Eigen::Vector2d at = to.hnormalized();
   return (map.topLeftCorner<2, 2>() - at * map.row(2).head<2>()) / to.z();
 }
 
-/// The rotation or reflection that is nearest to `linear`: the orthogonal factor of its polar
-/// decomposition (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986). Nothing where `linear` is not
-/// finite or makes a line of the picture.
+/// The rotation or reflection nearest to `linear`: the orthogonal factor of its polar decomposition
+/// (N. J. Higham, SIAM J. Sci. Stat. Comput. 7, 1986). Nothing where `linear` is not finite or maps
+/// the picture to a line.
 std::optional<Eigen::Matrix2d> turn_in(const Eigen::Matrix2d& linear) {
   if (!linear.allFinite()) return std::nullopt;
   Eigen::JacobiSVD<Eigen::Matrix2d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(std::numeric_limits<gfloat>::epsilon());  // so exact is what the map is made of
+  svd.setThreshold(std::numeric_limits<gfloat>::epsilon());  // the map itself is no more exact
   if (svd.rank() < 2) return std::nullopt;
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-/// Lengths follow the map; force and torque keep their size, and are turned and mirrored with it.
-/// False where no direction is left.
+/// Maps lengths with the map; force and torque keep their size, and are turned and mirrored with
+/// it. Returns false where no direction is left.
 bool map_motion(const Eigen::Matrix3d& map, GstSpidarFrameMotion& m) {
   const Eigen::Matrix2d linear = linear_at(map, Eigen::Vector2d(m.width, m.height) / 2);
   const Eigen::Vector2d velocity = linear * Eigen::Vector2d(m.velocity_x, m.velocity_y);
@@ -147,7 +148,7 @@ bool copy_mapped(GstBuffer* to, GstBuffer* from, const Eigen::Matrix3d& map,
     const GstSpidarMotionPoint& point = g_array_index(points.get(), GstSpidarMotionPoint, i);
     const Eigen::Vector2d before = mapped(map, {point.from_x, point.from_y});
     const Eigen::Vector2d now = mapped(map, {point.to_x, point.to_y});
-    if (!before.allFinite() || !now.allFinite()) continue;  // at the horizon
+    if (!before.allFinite() || !now.allFinite()) continue;  // the point is at the horizon
     moved.push_back({point.id, 0, before.x(), before.y(), now.x(), now.y(), point.object, 0});
   }
   GstStructure* const structure = add_copy(to, from);
@@ -199,7 +200,7 @@ gboolean transform(GstBuffer* to, GstCustomMeta*, GstBuffer* from, GQuark type, 
 
 void register_motion_meta() {
   static const bool registered = [] {
-    // The values depend on these: an element that changes one of them calls transform() or drops
+    // An element that changes one of these, on which the values depend, calls transform() or drops
     // the meta.
     const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
                            GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};

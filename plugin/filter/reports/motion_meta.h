@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The element's report of a frame in the meta that travels with it.
 #pragma once
 
 #include <gst/video/video.h>
@@ -9,8 +8,8 @@
 
 namespace spidar::filter {
 
-/// How GStreamer 1.28 and newer say that an element cuts, turns or mirrors a picture. GStreamer may
-/// be newer at run time than at build time.
+/// How GStreamer 1.28 and newer describe that an element cuts, turns or mirrors a picture.
+/// GStreamer may be newer at run time than at build time.
 #if GST_CHECK_VERSION(1, 28, 0)
 using MatrixTransform = GstVideoMetaTransformMatrix;
 #else
@@ -25,19 +24,18 @@ struct MatrixTransform {
 };
 #endif
 
-/// The type of a transformation whose data are a MatrixTransform.
 inline GQuark matrix_transform() {
   return g_quark_from_static_string("gst-video-matrix");
 }
 
-/// Makes the custom meta of gstspidarmotionmeta.h known; one call in a process is enough, more do
-/// no harm. Where a frame is copied, the meta is copied, too; where it is scaled, so are lengths
-/// and velocities; from GStreamer 1.28 on, where it is cut, turned or mirrored, so are positions
-/// and directions. Other elements that change the picture drop it.
+/// Registers the custom meta of gstspidarmotionmeta.h; may be called more than once. A copy of a
+/// frame has a copy of the meta. Scaling a frame scales lengths and velocities; from GStreamer 1.28
+/// on, cutting, turning and mirroring also map positions and directions. Other elements that change
+/// the picture drop the meta.
 void register_motion_meta();
 
-/// `buffer` is writable; a meta of an element before this one is replaced. `width` and `height` are
-/// those of the frame.
+/// Attaches the report to `buffer`, which is writable, in place of a meta of an element before this
+/// one. `width` and `height` are those of the frame.
 void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 }  // namespace spidar::filter

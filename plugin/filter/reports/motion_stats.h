@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Numbers of an element, for its `stats` property.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace spidar::filter {
 
-/// Numbers since the stream began. Thread-safe.
+/// Numbers for the `stats` property, since the stream began. Thread-safe.
 class MotionStats {
  public:
   void reset() {
@@ -46,7 +45,6 @@ class MotionStats {
     return frames_;
   }
 
-  /// Of what is felt, or of the last frame.
   void describe(FieldSink& to) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     to("frames", "", frames_, "frames that were analysed");
@@ -75,7 +73,7 @@ class MotionStats {
   std::optional<ModelKind> model_;
   uint32_t objects_ = 0;
   PicturePart film_;
-  /// 10 µs to 50 ms: more than that is too slow for any video.
+  /// 10 µs to 50 ms: a longer analysis is too slow for any video.
   DurationHistogram<5000, 10'000> analysis_;
 };
 

@@ -23,7 +23,7 @@ const MovingObject* object_at(const std::vector<MovingObject>& objects,
   return found;
 }
 
-/// Minimum number of picture samples that are read per relief sample in each direction. Two samples
+/// The fewest picture samples that are read per relief sample in each direction. Two samples
 /// capture everything that the relief can show, and keep the cost independent of the picture size.
 constexpr int kReadPerCell = 2;
 
@@ -40,7 +40,8 @@ Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
   const Eigen::Vector2d at_px = frame.place.film_px(position);
   const Eigen::Array2d film_px(frame.width(), frame.height());
-  if ((2 * at_px.array().abs() > film_px).any()) return Eigen::Vector2d::Zero();  // around the film
+  // Outside the film.
+  if ((2 * at_px.array().abs() > film_px).any()) return Eigen::Vector2d::Zero();
   const MovingObject* const object = object_at(frame.objects, at_px);
   if (object != nullptr) return passed_s * object->on_screen_px_s;
   if (frame.background) return frame.background->model.displacement_px(at_px);
@@ -96,7 +97,7 @@ void ReliefStream::start() {
   mailbox_ = std::move(mailbox);
 }
 
-/// The picture as it is shown, subsampled if it is larger than the relief needs.
+/// The shown picture, subsampled if it is larger than the relief needs.
 ImageView ReliefStream::thinned(const ImageView& luma) {
   const int columns = turn_.is_sideways() ? luma.height : luma.width;
   const int rows = turn_.is_sideways() ? luma.width : luma.height;
@@ -130,7 +131,7 @@ ImageView ReliefStream::thinned(const ImageView& luma) {
   return thin;
 }
 
-/// `levels` of a depth image as the picture is shown.
+/// Turns `levels` of a depth image as the picture is shown.
 const float* ReliefStream::turned(const float* levels) {
   if (turn_.is_none()) return levels;
   constexpr int kColumns = touch::HeightField::kColumns, kRows = touch::HeightField::kRows;

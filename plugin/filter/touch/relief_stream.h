@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Builds the touchable surface of every frame.
 #pragma once
 
 #include <atomic>
@@ -32,28 +31,26 @@ namespace spidar::filter {
 /// down. `position` is the position of the finger, with (0, 0) at the top left corner of the
 /// picture and (1, 1) at the bottom right. The result is the motion of the object whose box
 /// contains the finger (of several, the one with the smallest area), otherwise that of the
-/// background at this point. With motion=mean, which detects neither, it is the motion of the whole
-/// picture. Zero if the motion is unknown, or if the frame repeats the previous picture.
+/// background at this point. With motion=mean, which detects neither, the result is the motion of
+/// the whole picture. The result is zero if the motion is unknown, or if the frame repeats the
+/// previous picture.
 Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position);
 
-/// The contact settings that the properties yield on this device.
 touch::ContactSettings contact_settings(const TouchProperties& properties, const Profile& profile);
 
 /// Builds the relief of every frame and passes it to the haptic loop. Until touch is first enabled,
-/// it allocates nothing and is not connected to the loop. Methods are grouped by the thread that
-/// calls them.
+/// this object allocates nothing and is not connected to the loop.
 class ReliefStream {
  public:
-  /// Largest number of frames between the element and the screen; reliefs of further frames are
-  /// left out.
+  /// The most frames between the element and the screen; reliefs of further frames are left out.
   static constexpr size_t kSlots = 32;
 
   // --- state changes
 
-  /// Call after a device was opened. `half_size_m` is half the width and height of the picture, see
-  /// GripPointer.
+  /// Call this after a device was opened. `half_size_m` is half the width and height of the
+  /// picture, see GripPointer.
   void connect(HapticLoop* loop, const Profile& profile, const Eigen::Vector2d& half_size_m);
-  /// Call after the device was closed and its loop destroyed.
+  /// Call this after the device was closed and its loop destroyed.
   void disconnect();
 
   // --- any thread
@@ -74,9 +71,10 @@ class ReliefStream {
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger,
            std::string* shading = nullptr);
-  /// How the frames that follow are turned before they are shown; the relief is turned like them.
+  /// Sets how the following frames are turned before they are shown; the relief is turned like
+  /// them.
   void set_turn(const Orientation& turn) { turn_ = turn; }
-  /// The brightness of black and white in the frames that follow.
+  /// Sets the brightness of black and white in the following frames.
   void set_levels(const LumaLevels& levels) { levels_ = levels; }
   /// Removes the surface from `shown_ns` on.
   void end(int64_t shown_ns);
@@ -97,13 +95,13 @@ class ReliefStream {
   // Streaming thread.
   touch::ReliefBuilder builder_;
   touch::DepthPicture depth_;
-  int64_t depth_ns_ = INT64_MIN;  ///< time of the last frame whose depth was read
+  int64_t depth_ns_ = INT64_MIN;  ///< the time of the last frame whose depth was read
   Orientation turn_;
   LumaLevels levels_;
   std::vector<uint8_t> thinned_;
   std::vector<float> turned_levels_;
-  bool touched_ = false;   ///< the newest frame has a surface
-  bool left_out_ = false;  ///< the newest frame was not published
+  bool touched_ = false;   ///< whether the newest frame has a surface
+  bool left_out_ = false;  ///< whether the newest frame was not published
   uint32_t generation_ = 0;
 
   std::atomic<double> stiffness_N_m_{0};
