@@ -150,7 +150,8 @@ def field_sections(fields):
     return {"spidarmotion": motion, "spidarsink": sink}
 
 
-def describe(name):
+def describe(name, described):
+    """A page without its fields. `described`: the properties that the pages before it have, which are not described again."""
     factory = Gst.ElementFactory.find(name)
     element = factory.create(None)
     lines = [f"# {name}", "", WRITTEN, f"{factory.get_metadata('description')}.", "", "## Pads", ""]
@@ -165,12 +166,17 @@ def describe(name):
         lines.append(f"- `{template.name_template}`: {template.direction.value_nick}, "
                      f"{', '.join(f'`{kind}`' for kind in kinds)}")
     own = [spec for spec in element.list_properties() if spec.owner_type == element.__gtype__]
-    if own:
-        lines += ["", "## Properties", "", CHANGES]
+    items = {}
     for spec in sorted(own, key=lambda spec: spec.name):
         if spec.value_type.is_a(GObject.TYPE_ENUM):
             element.get_property(spec.name)
-        lines += property_lines(spec)
+        items[spec.name] = property_lines(spec)
+    if own:
+        known = ", ".join(f"`{key}`" for key, item in items.items() if item in described)
+        lines += ["", "## Properties", "", CHANGES if not described else
+                  f"Written as [those of spidarmotion](spidarmotion.md#properties), which also describe {known}.\n"]
+        lines += [line for item in items.values() if item not in described for line in item]
+        described += items.values()
     signals = [GObject.signal_query(signal, element.__gtype__) for signal in GObject.signal_list_names(element.__gtype__)]
     if signals:
         lines += ["", "## Signals", ""]
@@ -183,13 +189,13 @@ def describe(name):
 
 def pages(fields):
     """Text by file name."""
-    written, rows = {}, []
+    written, rows, described = {}, [], []
     for name in ELEMENTS:
         if Gst.ElementFactory.find(name) is None:
             sys.exit(f"elements.py: the element {name} was not found; is GST_PLUGIN_PATH set?")
     sections = field_sections(fields)
     for name in ELEMENTS:
-        lines = describe(name)
+        lines = describe(name, described)
         lines += sections.get(name, [])
         written[f"elements/{name}.md"] = "\n".join(lines).rstrip("\n") + "\n"
         rows.append([f"[{name}](elements/{name}.md)", Gst.ElementFactory.find(name).get_metadata("description") + "."])
