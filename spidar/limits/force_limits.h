@@ -18,11 +18,12 @@ namespace spidar {
 /// of the delivered force that no limit lowers. The same holds for the torque.
 class ForceLimits {
  public:
-  /// `most_N` bounds the force limit, however high it is set, until the first tick.
-  ForceLimits(const SafetyLimits& limits, double most_N) noexcept
+  /// `most_N` and `most_Nm` bound the limits, however high they are set, until the first tick.
+  ForceLimits(const SafetyLimits& limits, double most_N, double most_Nm) noexcept
       : most_N_(most_N),
+        most_Nm_(most_Nm),
         shared_(limits),
-        set_(bounded(limits, most_N)),
+        set_(bounded(limits)),
         now_(set_),
         before_(set_) {}
 
@@ -32,9 +33,11 @@ class ForceLimits {
   // --- loop thread
 
   /// A tick begins, `dt_s` after the last one that was answered, in which the wrenches were
-  /// `commanded` and `delivered`. `most_N` bounds the force limit from now on.
-  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N) noexcept {
+  /// `commanded` and `delivered`. `most_N` and `most_Nm` bound the limits from now on.
+  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N,
+            double most_Nm) noexcept {
     most_N_ = most_N;
+    most_Nm_ = most_Nm;
     take();
     now_ = set_;
     now_.max_force_N = fallen(set_.max_force_N, before_.max_force_N,
@@ -59,17 +62,18 @@ class ForceLimits {
   static double fallen(double set, double before, double exerted, double step) noexcept {
     return std::max(non_negative(set), std::min(before, exerted) - step);
   }
-  static SafetyLimits bounded(SafetyLimits limits, double most_N) noexcept {
-    limits.max_force_N = std::min(limits.max_force_N, most_N);
+  SafetyLimits bounded(SafetyLimits limits) const noexcept {
+    limits.max_force_N = std::min(limits.max_force_N, most_N_);
+    limits.max_torque_Nm = std::min(limits.max_torque_Nm, most_Nm_);
     return limits;
   }
   /// Keeps the limits of the last tick while new ones are being written.
   void take() noexcept {
     before_ = now_;
-    if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits, most_N_);
+    if (SafetyLimits limits; shared_.try_load(limits)) set_ = bounded(limits);
   }
 
-  double most_N_;
+  double most_N_, most_Nm_;
   Seqlock<SafetyLimits> shared_;
   SafetyLimits set_, now_;
   SafetyLimits before_;  ///< in effect before this tick

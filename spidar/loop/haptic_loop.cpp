@@ -29,7 +29,8 @@ bool has_wanted(const TickRecord& record) noexcept {
 }  // namespace
 
 HapticLoop::HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits)
-    : grip_(std::move(grip)), limits_(limits, grip_->traits().most_force_N()) {}
+    : grip_(std::move(grip)),
+      limits_(limits, grip_->traits().most_force_N(), grip_->traits().most_torque_Nm()) {}
 
 HapticLoop::~HapticLoop() {
   close();
@@ -130,7 +131,8 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   const Step step{1e-9 * static_cast<double>(std::min(unanswered_ns_, kMaxStep_ns)),
                   1e-9 * static_cast<double>(unanswered_ns_)};
   if (is_open) {
-    limits_.fall(safety_.last(), exerted_, step.falls_s, grip_->traits().most_force_N(late_s_));
+    limits_.fall(safety_.last(), exerted_, step.falls_s, grip_->traits().most_force_N(late_s_),
+                 grip_->traits().most_torque_Nm(late_s_));
   } else {
     limits_.restart();
   }
@@ -259,10 +261,8 @@ void HapticLoop::command(TickRecord& record, const Step& step, int64_t passed_ns
 void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) noexcept {
   const bool fresh = is_fresh(record);
   const GripTraits& grip = grip_->traits();
-  SafetyLimits set = limits_.as_set();
-  set.max_torque_Nm = std::min(set.max_torque_Nm, grip.most_torque_Nm(late_s_));
   const double dt_s = fresh ? step.rises_s : step.falls_s;
-  WrenchChain chain{set,
+  WrenchChain chain{limits_.as_set(),
                     limits_.in_effect(),
                     braking_limits(),
                     vibration_,

@@ -204,6 +204,7 @@ TEST(ReleasedTurn, NoTorqueAboveThatIsCommanded) {
   for (int i = 0; i < 200; ++i) {
     grip.tick();
     largest_Nm = std::max(largest_Nm, grip.snapshot().last.commanded.torque_Nm.norm());
+    EXPECT_LE(grip.snapshot().last.max_torque_Nm, most_Nm) << "what the strings are held to";
   }
   EXPECT_LE(largest_Nm, most_Nm * (1 + 1e-12));
   EXPECT_GT(largest_Nm, 0.9 * most_Nm);
