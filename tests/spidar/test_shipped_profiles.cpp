@@ -205,7 +205,8 @@ TEST_P(ShippedProfile, EveryNumberSaysWhereItIsFrom) {
   }
   for (const std::string field :
        {"geometry", "frame", "min_tension_N", "max_tension_N", "newtons_per_volt",
-        "metres_per_count", "motor_sign", "encoder_sign", "board", "dac_bits", "dac_max_V"})
+        "metres_per_count", "motor_sign", "encoder_sign", "board", "dac_bits", "dac_max_V",
+        "moment_of_inertia_kg_m2"})
     EXPECT_EQ(fields.count(field), 1u) << field;
 }
 
