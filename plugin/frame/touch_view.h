@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the grip is in the picture, and how it touches it, as data for overlay and window.
 #pragma once
 
 #include <optional>
@@ -17,21 +16,20 @@ namespace spidar {
 /// Maps the grip's position to a position of the picture. The picture is upright in the device's xy
 /// plane, its middle at the workspace's centre, and its edges half of the way to the frame, that
 /// is, to the box that holds the exits of the strings: there the grip can still be held
-/// (docs/strings.md). Right is right, up is up, depth does not matter; turning the grip does not
-/// move the pointer. `turn` turns the picture before it is shown; positions are those of the
-/// picture before: (0, 0) is its top left corner, (1, 1) its bottom right one.
+/// (docs/strings.md). Right is right, up is up; depth and rotation of the grip do not move the
+/// pointer. `turn` turns the picture before it is shown; positions are those of the picture before:
+/// (0, 0) is its top left corner, (1, 1) its bottom right one.
 class GripPointer {
  public:
-  /// Without a device: every position is the middle.
+  /// Without a device, every position is the middle.
   GripPointer() = default;
   explicit GripPointer(const StringGeometry& geometry, const Orientation& turn = {});
-  /// See half_size_m().
   GripPointer(const Eigen::Vector2d& half_size_m, const Orientation& turn)
       : half_size_m_(half_size_m), turn_(turn) {}
 
-  /// A grip further out points at the edge.
+  /// A grip outside the picture points at the edge.
   Eigen::Vector2d position(const Eigen::Vector3d& position_m) const;
-  /// The inverse: x and y in the device frame.
+  /// The inverse of position(): x and y in the device frame.
   Eigen::Vector2d position_m(const Eigen::Vector2d& position) const;
 
   /// Half the size, in x and y, of the box that maps to the picture.
@@ -47,9 +45,9 @@ class GripPointer {
 struct TouchScene {
   bool on = false;  ///< touch is on and a device is open; otherwise the rest is not valid
   GripPointer pointer;
-  double stiffness_N_m = 0;    ///< rendered stiffness
-  double motion_fraction = 0;  ///< fraction of the film's motion that is also rendered
-  /// touch::HeightField::shading() of the picture as it is shown; empty: it is not shown.
+  double stiffness_N_m = 0;    ///< the rendered stiffness
+  double motion_fraction = 0;  ///< the fraction of the film's motion that is also rendered
+  /// touch::HeightField::shading() of the shown picture; empty: not shown.
   std::string shading = {};
 };
 
@@ -58,10 +56,10 @@ struct TouchMark {
   Eigen::Vector2d finger = Eigen::Vector2d::Zero();
   bool touching = false;
   Eigen::Vector2d proxy = Eigen::Vector2d::Zero();    ///< only while touching
-  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< contact force on the grip
+  Eigen::Vector3d force_N = Eigen::Vector3d::Zero();  ///< on the grip
 };
 
-/// Empty when touch is off or the device is not running.
+/// Returns nothing when touch is off or the device is not running.
 std::optional<TouchMark> touch_mark(const TouchScene& scene, const TickRecord& tick);
 
 /// Radii of the marks in a picture that is `height_px` high: a ring for the finger, and a disc for

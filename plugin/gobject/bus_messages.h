@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Messages on the bus: an exception as an error or a warning, and information.
 #pragma once
 
 #include <exception>
@@ -34,7 +33,7 @@ inline GstResourceError resource_error(DeviceErrorCode code) {
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
 /// A device that cannot be used is RESOURCE with resource_error() of its code, a wrong profile or
 /// number RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of
-/// the source that found it, or `location` where the exception does not say, and ends with
+/// the source that found the error, or `location` where the exception has none, and ends with
 /// `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
                            const std::string& details, SourceLocation location) {
@@ -48,7 +47,7 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
     code = resource_error(device->code());
     location = device->location();
   }
-  // As the macros of GStreamer that post a message also log it.
+  // GStreamer's macros that post a message also log it.
   GST_CAT_WARNING_OBJECT(category_of(element), element, "%s: %s",
                          kind == GST_MESSAGE_ERROR ? "error" : "warning", error.what());
   gst_element_message_full(element, kind, domain, code, g_strdup(error.what()),
@@ -56,8 +55,8 @@ inline void post_exception(GstElement* element, GstMessageType kind, const std::
                            location.line);
 }
 
-/// Posts `text`, a sentence, for people. The debug text repeats it before `advice`, because
-/// gst-launch-1.0 prints nothing else.
+/// Posts `text`, a sentence, for people. The debug text repeats the sentence before `advice`,
+/// because gst-launch-1.0 prints nothing else.
 inline void post_information(GstElement* element, GQuark domain, gint code, const std::string& text,
                              const std::string& advice,
                              SourceLocation location = SourceLocation::here()) {

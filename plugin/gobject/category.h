@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The debug category of an element.
 #pragma once
 
 #include <gst/gst.h>
 
 namespace spidar {
 
-/// The category with the name of the element's factory. For files that several elements share:
+/// The debug category with the name of the element's factory. For files that several elements
+/// share:
 ///
 ///     #undef GST_CAT_DEFAULT  // of another file, where several are compiled as one
 ///     #define GST_CAT_DEFAULT spidar::category_of(element)

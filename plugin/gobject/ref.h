@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// References to objects of GStreamer that are given back by themselves.
 #pragma once
 
 #include <memory>
@@ -20,25 +19,26 @@ struct Unref {
   void operator()(GVariant* value) const { g_variant_unref(value); }
 };
 
-/// A reference to a GObject, or to one of the types above, or none. Made of a pointer, it takes
-/// over the reference that the caller has: `const Ref<GstPad> pad(gst_element_get_static_pad(…))`.
+/// A reference to a GObject, or to one of the types above, or none, with automatic release. The
+/// constructor takes over the reference of a pointer: `const Ref<GstPad>
+/// pad(gst_element_get_static_pad(…))`.
 template <typename Object>
 using Ref = std::unique_ptr<Object, Unref>;
 
-/// Another reference to `object`, which may be null.
+/// Takes another reference to `object`, which may be null.
 template <typename Object>
 Ref<Object> new_ref(Object* object) {
   return Ref<Object>(object ? static_cast<Object*>(g_object_ref(object)) : nullptr);
 }
 
-/// What a text says, which is freed; empty for null.
+/// Returns a text and frees it; empty for null.
 inline std::string taken(gchar* text) {
   std::string copy = text ? text : "";
   g_free(text);
   return copy;
 }
 
-/// Takes a new object, which nobody has a reference to, for its owner.
+/// Takes a new object, to which nobody has a reference, for its owner.
 template <typename Object>
 Ref<Object> sunk(Object* object) {
   return Ref<Object>(object ? static_cast<Object*>(g_object_ref_sink(object)) : nullptr);

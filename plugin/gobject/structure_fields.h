@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-/// Sets the fields of a structure; those that it has already are overwritten.
+/// Sets the fields of a structure, and overwrites those that it already has.
 class StructureFields : public FieldSink {
  public:
   explicit StructureFields(GstStructure* structure, unsigned outputs = 0)

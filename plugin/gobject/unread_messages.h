@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Messages that an element posts without end, as long as somebody reads them.
 #pragma once
 
 #include <atomic>
@@ -9,21 +8,21 @@
 
 namespace spidar {
 
-/// Counts the messages of an element that wait on its bus, and lives as long as the element. Any
-/// thread.
+/// Counts the messages of an element that wait on its bus, and lives as long as the element: nobody
+/// may read them. Any thread.
 class UnreadMessages {
  public:
-  /// No more wait: unread, they would fill the memory by hundreds of megabytes an hour. At
-  /// 25 frames/s an application that reads its bus has 40 s for it.
+  /// No more messages wait, because unread ones would fill the memory by hundreds of megabytes an
+  /// hour. At 25 frames/s an application has 40 s to read its bus.
   static constexpr int kMax = 1000;
 
-  /// Posts the message that `make()` returns, or nothing while kMax wait.
+  /// Posts the message that `make()` returns, or nothing while kMax messages wait.
   template <typename Make>
   void post(GstElement* element, Make&& make) {
     if (count_ >= kMax) return;
     GstMessage* const message = make();
     ++count_;
-    // When the message is freed. It holds the element until then.
+    // The message holds the element until it is freed, which calls this.
     const auto count_down = [](gpointer count, GstMiniObject*) {
       --*static_cast<std::atomic<int>*>(count);
     };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Shape and colour of the arrows that show motion in the video and in the window.
 #pragma once
 
 #include <array>
@@ -25,7 +24,7 @@ struct Rgb {
 constexpr Rgb kWhite{255, 255, 255};
 constexpr Rgb kBlack{0, 0, 0};
 
-/// A line with a head.
+/// A line with a head, which shows motion in the video and in the window.
 struct Arrow {
   Eigen::Vector2d tail_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_px = Eigen::Vector2d::Zero();
@@ -33,8 +32,8 @@ struct Arrow {
   Rgb color;
 };
 
-/// The triangle at the end of an arrow, on which its line ends at neck_px(). Nothing for an arrow
-/// without length, which is drawn as a dot.
+/// The triangle at the end of an arrow, whose line ends at neck_px(). Nothing for an arrow without
+/// length, which is drawn as a dot.
 struct ArrowHead {
   std::array<Eigen::Vector2d, 3> corners_px;  ///< the second one is the tip
   Eigen::Vector2d neck_px() const { return (corners_px[0] + corners_px[2]) / 2; }
@@ -45,16 +44,15 @@ std::optional<ArrowHead> head_of(const Arrow& arrow);
 /// violet. `saturation` 0 … 1.
 Rgb direction_color(const Eigen::Vector2d& direction, double saturation);
 
-/// Drawing parameters of a scene.
 struct ArrowStyle {
   double scale = 4;                      ///< arrow length / displacement, > 0
   double height_px = 480;                ///< height of the picture; line widths scale with it
-  double max_force_N = kDefaultForce_N;  ///< force whose arrow is a fifth of height_px long
-  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< tail of the arrow of the force
-  Orientation turn;                                     ///< of what is drawn, before it is shown
+  double max_force_N = kDefaultForce_N;  ///< the force whose arrow is a fifth of height_px long
+  Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();  ///< the tail of the force's arrow
+  Orientation turn;                                     ///< of the drawing, before it is shown
 };
 
-/// Shaft width of the arrow of the force.
+/// Shaft width of the force's arrow.
 double felt_width_px(const ArrowStyle& style);
 
 /// One arrow per point with its tail at `from`: bold for objects, pale for the background. `at_px`
@@ -62,8 +60,8 @@ double felt_width_px(const ArrowStyle& style);
 std::vector<Arrow> point_arrows(const std::vector<OwnedPoint>& points, const ArrowStyle& style,
                                 const std::function<Eigen::Vector2d(const ImagePoint&)>& at_px);
 
-/// The force as a white arrow from the centre, in the direction in which it pushes the hand.
-/// Empty when it is too short to show a direction.
+/// The force as a white arrow from the centre, in the direction in which it pushes the hand. Empty
+/// when the arrow is too short to show a direction.
 std::optional<Arrow> felt_arrow(const Wrench& wrench, const ArrowStyle& style);
 
 }  // namespace spidar

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Axes of a plot: which range they show, and the round numbers on them.
 #pragma once
 
 #include <algorithm>
@@ -11,17 +10,15 @@
 
 namespace spidar {
 
-/// A range of values with ticks at multiples of `step`.
+/// The axis of a plot: a range of values with ticks at multiples of `step`.
 struct PlotAxis {
-  /// Tolerance in steps: rounding of low / step must neither add nor lose a tick at the end of the
-  /// range.
+  /// A tolerance in steps, so that rounding low / step neither adds nor loses a tick at the end.
   static constexpr double kRounding = 1e-9;
 
   double low = 0, high = 1;
   double step = 1;   ///< 1, 2 or 5 times a power of ten
-  int decimals = 0;  ///< that tell neighbouring ticks apart
+  int decimals = 0;  ///< enough to distinguish neighbouring ticks
 
-  /// Multiples of `step` from `low` to `high`, rising.
   std::vector<double> ticks() const {
     std::vector<double> values;
     const double first = std::ceil(low / step - kRounding),
@@ -31,10 +28,10 @@ struct PlotAxis {
   }
   std::string label(double value) const {
     char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // no "-0"
+    std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // avoids "-0"
     return text;
   }
-  /// 0 at `low`, 1 at `high`; values beyond are beyond.
+  /// 0 at `low`, 1 at `high`; smaller and larger values map beyond.
   double fraction(double value) const { return (value - low) / (high - low); }
 };
 
@@ -47,8 +44,8 @@ inline double round_step(double least) {
   return 10 * power;
 }
 
-/// The smallest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `least` (> 0): an
-/// axis that ends there grows by little when it has to.
+/// The smallest of 1, 2, 3, 4, 5, 6, 8 times a power of ten that is not below `least` (> 0): the
+/// end of an axis that grows in small steps.
 inline double round_top(double least) {
   const double power = std::pow(10, std::floor(std::log10(least)));
   for (const double factor : {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0}) {
@@ -70,7 +67,7 @@ inline PlotAxis make_axis(double low, double high, int most_steps) {
 }
 
 /// Upper end of an axis of forces up to `largest_N`: one of few round numbers, so that it changes
-/// seldom, and never less than kMin_N, where hardly anything is felt.
+/// seldom, and at least kMin_N, where a hand hardly feels anything.
 inline double force_axis_end_N(double largest_N) {
   constexpr double kMin_N = 0.1, kHeadroom = 1.1, kSteps = 4;
   const double end_N = std::max(kHeadroom * largest_N, kMin_N);
@@ -79,8 +76,8 @@ inline double force_axis_end_N(double largest_N) {
 }
 
 /// Upper end of a range from 0 for these values (≥ 0), which a few outliers do not stretch: the
-/// largest, but at most 1.5 times the value that 95 % of them do not exceed. Where 95 % are zero
-/// there is nothing that an outlier could flatten, and it is the largest. 0 without values.
+/// largest, but at most 1.5 times the value that 95 % of them do not exceed. Where 95 % are zero an
+/// outlier cannot flatten anything, and the end is the largest. 0 without values.
 inline double robust_largest(std::vector<double> values) {
   constexpr double kUsual = 0.95, kHeadroom = 1.5;
   if (values.empty()) return 0;

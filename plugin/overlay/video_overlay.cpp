@@ -16,13 +16,13 @@ namespace spidar {
 namespace {
 
 constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130}, kFilm{90, 200, 250};
-/// Height of a number, of the picture's.
+/// The height of a number, as a fraction of the picture's.
 constexpr double kNumberFraction = 0.035;
-/// The strip with the curve, as fractions of the height of the picture: all of
-/// it, and from 0 N to the upper end of the axis. The curve ends so far from the right edge.
+/// The strip with the curve, as fractions of the height of the picture: the whole strip, its part
+/// below 0 N, and from 0 N to the end of the axis; also the gap to the right edge.
 constexpr double kStripFraction = 0.17, kBelowFraction = 0.02, kCurveFraction = 0.12;
 constexpr double kCurveEnd = 0.985;
-/// So much of the picture is seen through the strip.
+/// How much of the picture shows through the strip.
 constexpr double kStripOpacity = 0.5;
 
 cv::Scalar bgra(Rgb color) {
@@ -39,7 +39,7 @@ int thickness(double width_px) {
   return whole(width_px - 1);
 }
 
-/// A picture in the coding of a picture that is turned by `turn` before it is shown.
+/// Turns a picture back to how it is stored when `turn` turns it before it is shown.
 cv::Mat coded(cv::Mat shown, const Orientation& turn) {
   const Eigen::Vector2d right = turn.to_stored(Eigen::Vector2d(1, 0));
   const Eigen::Vector2d down = turn.to_stored(Eigen::Vector2d(0, 1));
@@ -52,7 +52,7 @@ cv::Mat coded(cv::Mat shown, const Orientation& turn) {
 }
 
 /// Blends into a copy of the frame, which is copied back: GStreamer's functions for lines read and
-/// write some bytes beyond their ends, for which not every frame has room.
+/// write some bytes beyond their ends, which not every frame has.
 void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame) {
   constexpr gsize kRoom = 256;
   GstVideoInfo roomy;
@@ -71,7 +71,7 @@ void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame)
 }
 
 /// A transparent sheet over the visible part of a frame, in square pixels: (0, 0) is the centre of
-/// its first one. Soft edges make its pixels those of premultiplied alpha.
+/// the first one. Soft edges need premultiplied alpha.
 class Sheet {
  public:
   Sheet(const GstVideoFrame& frame, const PicturePart& visible)
@@ -80,7 +80,7 @@ class Sheet {
     pixels_ = cv::Mat::zeros(visible.height, static_cast<int>(width_px), CV_8UC4);
   }
 
-  /// Of a position in pixels of the frame, whose first one keeps its left edge.
+  /// Maps a position in pixels of the frame; the left edge of the first pixel stays.
   Eigen::Vector2d at_px(const Eigen::Vector2d& frame_px) const {
     return {(frame_px.x() - visible_.x + 0.5) * pixel_aspect_ - 0.5, frame_px.y() - visible_.y};
   }
@@ -92,7 +92,7 @@ class Sheet {
     cv::line(pixels_, fixed(from_px), fixed(to_px), bgra(color), thickness(width_px), cv::LINE_AA,
              kShift);
   }
-  /// Filled, or its outline.
+  /// Draws a filled triangle, or its outline.
   void triangle(const std::array<Eigen::Vector2d, 3>& corners_px, double outline_px, Rgb color) {
     std::vector<cv::Point> corners;
     for (const Eigen::Vector2d& corner_px : corners_px) {
@@ -105,7 +105,7 @@ class Sheet {
                     kShift);
     }
   }
-  /// Darkens what is behind, between two corners.
+  /// Darkens the picture between two corners.
   void shade(const Eigen::Vector2d& from_px, const Eigen::Vector2d& to_px, double opacity) {
     if (!is_near(from_px) || !is_near(to_px)) return;
     cv::rectangle(pixels_, fixed(from_px), fixed(to_px), {0, 0, 0, 255 * opacity}, cv::FILLED,
@@ -117,23 +117,23 @@ class Sheet {
     cv::rectangle(pixels_, fixed(low_px), fixed(high_px), bgra(color), whole(width_px), cv::LINE_8,
                   kShift);
   }
-  /// A ring, or a disc without a width.
+  /// Draws a ring, or a disc without a width.
   void circle(const Eigen::Vector2d& centre_px, double radius_px, double width_px, Rgb color) {
     if (!is_near(centre_px) || !(radius_px >= 0) || radius_px > kFar_px) return;
     const auto radius = static_cast<int>(std::lround(radius_px * (1 << kShift)));
     cv::circle(pixels_, fixed(centre_px), radius, bgra(color),
                width_px > 0 ? thickness(width_px) : cv::FILLED, cv::LINE_AA, kShift);
   }
-  /// Upright as it is shown, `along` from `beyond_px`, or where there is room.
+  /// Draws text upright as shown, `along` from `beyond_px`, or where there is space.
   void text(const std::string& text, const Eigen::Vector2d& beyond_px, const Eigen::Vector2d& along,
             const Orientation& turn);
 
-  /// Blends it into a frame that is mapped for writing, whatever its format.
+  /// Blends the sheet into a frame of any format that is mapped for writing.
   void blend_into(GstVideoFrame& frame) const;
 
  private:
-  static constexpr int kShift = 4;            // coordinates of OpenCV are whole numbers of 1/16 px
-  static constexpr double kFar_px = 1 << 20;  // these do not overflow, and nothing there is seen
+  static constexpr int kShift = 4;            // OpenCV takes whole numbers of 1/16 px
+  static constexpr double kFar_px = 1 << 20;  // no overflow, and nothing there is visible
 
   static bool is_near(const Eigen::Vector2d& px) {
     return px.allFinite() && px.cwiseAbs().maxCoeff() < kFar_px;
@@ -179,7 +179,7 @@ void Sheet::blend_into(GstVideoFrame& frame) const {
   cv::extractChannel(pixels_, covered, 3);
   const cv::Rect drawn = cv::boundingRect(covered);
   if (drawn.empty()) return;
-  // Whole rows, so that their scaling to pixels that are not square begins at the left edge.
+  // Whole rows are scaled, so that pixels that are not square begin at the left edge.
   const cv::Mat rows = pixels_.rowRange(drawn.y, drawn.y + drawn.height);
   const gsize bytes = rows.total() * rows.elemSize();
   GstBuffer* const buffer = gst_buffer_new_memdup(rows.data, bytes);
@@ -196,7 +196,7 @@ void Sheet::blend_into(GstVideoFrame& frame) const {
   gst_buffer_unref(buffer);
 }
 
-/// With a border of `margin_px` all around.
+/// Draws a border of `margin_px` all around.
 void draw_arrow(const Arrow& arrow, double margin_px, Rgb color, Sheet& sheet) {
   const double width_px = arrow.width_px + 2 * margin_px;
   const std::optional<ArrowHead> head = head_of(arrow);
@@ -239,7 +239,7 @@ void draw_touch(const TouchMark& touch, const PicturePart& visible, ArrowStyle s
   sheet.circle(style.centre_px, radius_px, 0, kProxy);
 }
 
-/// Thick and orange where it is felt.
+/// Draws a thick orange line around an object that is felt.
 void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& film, double thin_px,
                   Sheet& sheet) {
   const Eigen::AlignedBox2d box = box_px(object, film);
@@ -249,7 +249,7 @@ void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& f
   sheet.box(low_px, high_px, 2 * thin_px, kProxy);
 }
 
-/// Along the lower edge of the picture as it is shown, or the upper one where subtitles are.
+/// Draws the curve along the lower edge of the shown picture, or the upper one where subtitles are.
 void draw_curve(const ForceCurve& curve, const DrawnFrame& report, Sheet& sheet) {
   const Orientation& turn = report.turn;
   const Eigen::Vector2d size_px = sheet.size_px();

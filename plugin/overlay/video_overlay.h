@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Draws motion, force and contact into the video.
 #pragma once
 
 #include <algorithm>
@@ -20,10 +19,10 @@ namespace spidar {
 class ForceCurve {
  public:
   static constexpr int64_t kLength_ns = 5'000'000'000;  ///< as in the plots of the debug window
-  /// Upper end of the axis of a stream in which hardly anything is felt.
+  /// The end of the axis of a stream in which hardly anything is felt.
   static constexpr double kMinTop_N = 0.5;
 
-  /// The force of a frame. A time before that of the previous frame begins another stream.
+  /// Adds the force of a frame. A time before that of the previous frame begins another stream.
   void add(int64_t time_ns, double force_N) {
     if (!points_.empty() && time_ns < points_.back().time_ns) *this = {};
     points_.push_back({time_ns, force_N});
@@ -35,8 +34,8 @@ class ForceCurve {
   /// can be compared.
   PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kMinTop_N)), 1); }
 
-  /// Oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest frame; y from 0 N to 1,
-  /// the upper end of axis().
+  /// Returns the curve, oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest
+  /// frame; y from 0 N to 1, the end of axis().
   std::vector<Eigen::Vector2d> positions() const {
     std::vector<Eigen::Vector2d> positions;
     positions.reserve(points_.size());
@@ -62,8 +61,8 @@ class ForceCurve {
 /// arrow with a black border, which begins on the object (see force_origin_px()). While the picture
 /// is touched, also draws the finger as a ring, the touched point as a disc that grows with the
 /// force, and the contact force from that point. With `has_points`, also draws one arrow per point
-/// and a cross at each lost point; with a `curve`, that along the lower edge, or the upper
-/// one where the report has subtitles. `frame` must be mapped for writing.
+/// and a cross at each lost point. Draws a `curve` along the lower edge, or the upper one where the
+/// report has subtitles. `frame` must be mapped for writing.
 void draw_overlay(const DrawnFrame& report, bool has_points, double scale, GstVideoFrame& frame,
                   const ForceCurve* curve = nullptr);
 

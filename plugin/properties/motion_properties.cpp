@@ -15,8 +15,8 @@ namespace {
 
 using MotionRow = Property<MotionProperties>;
 
-/// A text that `parse` reads. What it cannot read, because it is `neither` of what it may be,
-/// leaves the property as it was, with a warning, as GObject does it.
+/// A text that `parse` reads. A text that is `neither` of the accepted ones leaves the property as
+/// it was, with a warning, as in GObject.
 template <typename Value>
 MotionRow parsed(PropertyNames n, std::optional<Value> (*parse)(const std::string&),
                  Value (*get)(const MotionProperties&),
@@ -39,8 +39,9 @@ MotionRow parsed(PropertyNames n, std::optional<Value> (*parse)(const std::strin
           }};
 }
 
-/// Where nobody sets alpha, mean velocities have the steepness that is closest to the paper: the
-/// still background counts in them, and makes them small (docs/feeling.md, What can be told apart).
+/// Where the user does not set alpha, mean velocities get the steepness that is closest to the
+/// paper: they include the still background, which makes them small (docs/feeling.md, What can be
+/// told apart).
 void follow_motion(MotionProperties& properties) {
   constexpr double kOfMean_s_px = 0.01;
   if (properties.alpha_is_set) return;
@@ -49,7 +50,6 @@ void follow_motion(MotionProperties& properties) {
                                                   : ControllerSettings().alpha_s_px;
 }
 
-/// `row`, after whose setting `then` is called.
 MotionRow with(MotionRow row, void (*then)(MotionProperties&)) {
   row.set = [set = std::move(row.set), then](MotionProperties& properties, const GValue* value) {
     set(properties, value);
@@ -88,7 +88,6 @@ MotionRow area_row() {
           std::to_string(kMinSide_px));
 }
 
-/// With analysis_mark().
 std::vector<MotionRow> marked(std::vector<MotionRow> rows) {
   for (MotionRow& row : rows) {
     row.spec = [spec = row.spec](const MotionProperties& defaults) {
@@ -168,7 +167,6 @@ std::vector<MotionRow> analysis_rows() {
   };
 }
 
-/// How motion and force are shown.
 std::vector<MotionRow> display_rows() {
   return {
       MotionRow::choice<DisplayProperties::Overlay>(
@@ -198,7 +196,6 @@ constexpr double kMaxRelief_mm = 30;
 constexpr double kMinStiffness_N_m = 10;
 constexpr double kMaxTexture = 10;
 
-/// What is touched in the picture.
 std::vector<MotionRow> touch_rows() {
   return {
       MotionRow::choice<TouchProperties::Kind>(
@@ -243,7 +240,7 @@ MotionRow device_row() {
       kNull, KEPT_IN(device));
 }
 
-/// From `ts-offset` to `track`: what an application asks of the element as a whole.
+/// The properties of the element as a whole, from `ts-offset` to `track`.
 std::vector<MotionRow> element_rows() {
   return {
       MotionRow::offset({"ts-offset", "Timestamp offset",
@@ -296,7 +293,7 @@ std::optional<Pointer> parse_pointer(const std::string& text) {
     pointer.kind = text == "grip" ? Pointer::Kind::kGrip : Pointer::Kind::kMouse;
     return pointer;
   }
-  // Without regard to the locale.
+  // The locale does not matter.
   gchar* end = nullptr;
   const double x = g_ascii_strtod(text.c_str(), &end);
   if (end == text.c_str() || *end != ',') return std::nullopt;

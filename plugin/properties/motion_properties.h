@@ -17,18 +17,17 @@
 namespace spidar {
 
 struct TouchProperties {
-  /// Where the relief comes from.
+  /// The source of the relief.
   enum class Kind { kOff, kLuma, kDepth, kDepthBelow };
 
   Kind kind = Kind::kOff;
   double relief_mm = 8;  ///< from black to white, or from far to near
   double stiffness_N_m = 500;
   double friction = 0.3;       ///< μs; μd is 0.8 of it
-  double texture = 0;          ///< gain of the fine detail's slope
-  double motion_fraction = 0;  ///< of the film's motion, which is rendered besides
+  double texture = 0;          ///< gain for the slope of fine detail
+  double motion_fraction = 0;  ///< how much of the film's motion is also rendered
 
-  /// The part of the film's frames that has the depth to be touched; nothing where they are all
-  /// picture.
+  /// The part of the film's frames that has the depth; nothing where the whole frame is picture.
   std::optional<touch::DepthLayout> packed() const {
     if (kind == Kind::kDepth) return touch::DepthLayout::kRight;
     if (kind == Kind::kDepthBelow) return touch::DepthLayout::kBelow;
@@ -37,12 +36,11 @@ struct TouchProperties {
 };
 
 struct DisplayProperties {
-  /// What is drawn into the video.
   enum class Overlay {
     kNone,
     kForce,   ///< outlines of objects, the force, finger and contact
-    kPoints,  ///< arrows of the motion, too
-    kCurve,   ///< as kForce, and the force of the last seconds
+    kPoints,  ///< also arrows of the motion
+    kCurve,   ///< kForce, and the force of the last seconds
   };
 
   Overlay overlay = Overlay::kNone;
@@ -58,15 +56,15 @@ struct Pointer {
   enum class Kind { kFixed, kGrip, kMouse };
 
   Kind kind = Kind::kFixed;
-  /// The position with kFixed; with the others, where they point until the device runs or the mouse
-  /// moves. (0, 0) is the top left corner of the picture, (1, 1) its bottom right one.
+  /// The position with kFixed; otherwise the position until the device runs or the mouse moves. (0,
+  /// 0) is the top left corner of the picture, (1, 1) its bottom right one.
   Eigen::Vector2d position{0.5, 0.5};
 };
 
 /// The settings that are read again for each frame.
 struct FrameSettings {
-  /// In the settings of the element, its pointer is the fixed one. In those of a frame, it is a
-  /// position in the frame before it is turned, and rules, boxes and the object of a click are
+  /// In the settings of the element, its pointer is the fixed one. In those of a frame, the pointer
+  /// is a position in the frame before it is turned, and rules, boxes and the clicked object are
   /// there, too.
   AnalyzerSettings analyzer;
   Pointer::Kind pointer = Pointer::Kind::kFixed;
@@ -79,29 +77,28 @@ struct FrameSettings {
 struct MotionProperties : FrameSettings {
   std::string device = "sim";
   std::string profile;        ///< empty: that of the device's board
-  bool alpha_is_set = false;  ///< else that of the analyzer follows its motion
+  bool alpha_is_set = false;  ///< otherwise alpha follows `motion`
   GstClockTimeDiff ts_offset_ns = 0;
   std::string trace;
   std::string haptic_trace;
   std::string track;  ///< path, "auto", or empty
-  std::string feel;   ///< the same, or rules
+  std::string feel;   ///< path, "auto", rules, or empty
   bool mute = false;
 };
 
 /// All properties of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
 
-/// "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for all else.
+/// Parses "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for other
+/// texts.
 std::optional<Pointer> parse_pointer(const std::string& text);
-/// The inverse of parse_pointer().
 std::string text_of(const Pointer& pointer);
 
-/// "whole", "auto", or four whole numbers with commas between them: x, y, width and height in
-/// pixels, from 0 and kMinSide_px to kMaxSide_px; nothing for all else.
+/// Parses "whole", "auto", or four whole numbers with commas between them: x, y, width and height
+/// in pixels, from 0 and kMinSide_px to kMaxSide_px; nothing for other texts.
 std::optional<AreaSetting> parse_area(const std::string& text);
-/// The inverse of parse_area().
 std::string text_of(const AreaSetting& area);
-/// The largest number of an area; no video format knows so large a frame.
+/// The largest number of an area; no video format has a larger frame.
 constexpr int kMaxSide_px = 1 << 16;
 
 }  // namespace spidar

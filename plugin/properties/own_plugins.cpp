@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Empty when they are in neither.
+/// Returns an empty text when the plugins are in neither folder.
 std::string folder_of(const std::vector<std::string>& names) {
   for (const fs::path& folder : {own_file().parent_path(), installed(SPIDAR_PLUGIN_DIR)}) {
     const bool has_all = std::all_of(names.begin(), names.end(), [&](const std::string& name) {

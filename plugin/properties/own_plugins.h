@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the plugins that belong to a program.
 #pragma once
 
 #include <string>
@@ -10,7 +9,8 @@ namespace spidar {
 
 /// Makes GStreamer find the plugins `names` of this version, in this process and in those that it
 /// starts: beside the program, as in a build folder, or where they were installed, if GStreamer
-/// searches neither. Returns empty, or what to do when they are not there. After gst_init().
+/// searches neither. Returns an empty text, or what to do when the plugins are missing. Call this
+/// after gst_init().
 std::string find_own_plugins(const std::vector<std::string>& names);
 
 }  // namespace spidar

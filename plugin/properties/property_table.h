@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Properties of an element as a table: one row for each.
 #pragma once
 
 #include <cstring>
@@ -16,7 +15,7 @@
 namespace spidar {
 
 constexpr auto kReadOnly = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
-/// Is read when the element begins: can be changed in NULL only.
+/// For properties that the element reads when it begins: they can be changed in NULL only.
 constexpr auto kNull = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS);
 /// Can be changed in READY and below.
 constexpr auto kReady =
@@ -27,8 +26,8 @@ constexpr auto kPlaying = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_S
 /// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable = static_cast<GParamFlags>(kPlaying | GST_PARAM_CONTROLLABLE);
 
-/// Marks properties that the force of a film's frames depends on. Those without the mark are for a
-/// device, a viewer or a pipeline, and change no haptic track.
+/// Marks properties that change the force of a film's frames. The others belong to a device, a
+/// viewer or a pipeline, and change no haptic track.
 inline GQuark analysis_mark() {
   return g_quark_from_static_string("spidar-analysis");
 }
@@ -39,7 +38,6 @@ inline GQuark analysis_mark() {
     return settings.member;     \
   }
 
-/// A value of a property of the type `Enum`.
 template <typename Enum>
 struct Choice {
   Enum value;
@@ -47,12 +45,12 @@ struct Choice {
   const char* nick;
 };
 
-/// Registers the type the first time; several elements may share it. Class initialisation, which
-/// GLib does in one thread at a time.
+/// Registers the type the first time; several elements may share it. Only for class initialisation,
+/// which GLib runs in one thread at a time.
 template <typename Enum>
 GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
   if (const GType type = g_type_from_name(name)) return type;
-  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type keeps them
+  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type keeps these
   for (size_t i = 0; i < choices.size(); ++i) {
     values[i] = {static_cast<int>(choices[i].value), choices[i].meaning, choices[i].nick};
   }
@@ -68,12 +66,11 @@ struct PropertyNames {
   const char* blurb;
 };
 
-/// A row. `Settings` is where the element keeps its properties; a Settings that nobody changed has
-/// the defaults.
+/// A row. `Settings` is where the element keeps its properties; a new Settings has the defaults.
 template <typename Settings>
 struct Property {
   std::function<GParamSpec*(const Settings& defaults)> spec;
-  /// Both are empty for a property that is not among the settings.
+  /// Both functions are empty for a property that is not among the settings.
   std::function<void(Settings&, const GValue*)> set;
   std::function<void(const Settings&, GValue*)> get;
 
@@ -133,7 +130,7 @@ struct Property {
         [=](const Settings& s, GValue* v) { g_value_set_enum(v, static_cast<int>(field(s))); }};
   }
 
-  /// A text, which is NULL where it is empty.
+  /// A text; an empty one is NULL.
   template <typename Field>
   static Property text(PropertyNames n, GParamFlags flags, Field field) {
     const auto or_null = [](const std::string& s) { return s.empty() ? nullptr : s.c_str(); };
@@ -147,7 +144,7 @@ struct Property {
             [=](const Settings& s, GValue* v) { g_value_set_string(v, or_null(field(s))); }};
   }
 
-  /// A structure that the element makes when it is asked.
+  /// A structure that the element makes on request.
   static Property statistics(PropertyNames n) {
     return {[=](const Settings&) {
               return g_param_spec_boxed(n.name, n.nick, n.blurb, GST_TYPE_STRUCTURE, kReadOnly);
@@ -167,7 +164,7 @@ class PropertyTable {
     }
   }
 
-  /// Class initialisation. The id of a property is its position in the table, from 1 on.
+  /// For class initialisation. The id of a property is its position in the table, from 1 on.
   void install(GObjectClass* object_class) const {
     const Settings defaults;
     guint id = 0;
@@ -176,7 +173,7 @@ class PropertyTable {
     }
   }
 
-  /// Both return false for an id that is not a setting: `stats`, or unknown.
+  /// Both functions return false for an id that is not a setting: `stats`, or unknown.
   bool set(Settings& settings, guint id, const GValue* value) const {
     if (id < 1 || id > rows_.size() || !rows_[id - 1].set) return false;
     rows_[id - 1].set(settings, value);
@@ -208,7 +205,7 @@ void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* 
   }
 }
 
-/// Whether the element has read the property already. Object lock.
+/// Whether the element has already read the property. Object lock.
 inline bool is_too_late(GstElement* element, const GParamSpec* spec) {
   if (spec->flags & GST_PARAM_MUTABLE_PLAYING) return false;
   const GstState last = spec->flags & GST_PARAM_MUTABLE_READY ? GST_STATE_READY : GST_STATE_NULL;
@@ -224,8 +221,8 @@ inline void warn_of_late(GstElement* element, const GParamSpec* spec) {
 }
 
 /// GObjectClass::set_property of an element whose `state` has `settings`, under its object lock,
-/// and the mutex `setting`, so that the effects of settings come in the order in which they were
-/// made. A setting that would have no effect any more is not taken, with a warning.
+/// and the mutex `setting`, so that the effects of settings come in their order. A setting that
+/// comes too late is refused with a warning.
 template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Video sinks on a machine without a graphics card.
 #pragma once
 
 #include <string>
@@ -10,15 +9,15 @@
 
 namespace spidar {
 
-/// Where there is no graphics card, OpenGL draws on the processor: a picture of 1080 lines takes it
-/// 2.8 times as long as ximagesink (user time of 40 of them on Xvfb), too long for a film, which
-/// then stands still. Players take another sink than glimagesink after this call, which comes
-/// before gst_init(). Returns what is to be said of it; nothing where nothing was changed, as when
-/// the user has set the ranks of the sinks.
+/// Where there is no graphics card, OpenGL draws on the processor: a picture of 1080 lines
+/// takes 2.8 times as long as with ximagesink (user time of 40 of them on Xvfb), too long for a
+/// film, which then stands still. After this call, which must come before gst_init(), players do
+/// not choose glimagesink. Returns a text for the user; empty when nothing was changed, as when the
+/// user has set the ranks of the sinks.
 inline std::string avoid_software_gl() {
   constexpr const char* kRanks = "GST_PLUGIN_FEATURE_RANK";
   const auto is_there = [](const char* path) { return access(path, F_OK) == 0; };
-  // The first card's node for drawing; that of NVIDIA's own driver.
+  // The nodes for drawing of the first card, and of NVIDIA's own driver.
   if (is_there("/dev/dri/renderD128") || is_there("/dev/nvidiactl") || g_getenv(kRanks)) return {};
   g_setenv(kRanks, "glimagesink:NONE", TRUE);
   return "there is no graphics card, so the film is shown without OpenGL";

@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr int kDigits = 15;  // of a double, those that do not depend on how it is stored
+constexpr int kDigits = 15;  // those of a double that do not depend on how it is stored
 
 template <typename Number>
 std::string range(const char* kind, Number least, Number most) {
@@ -32,7 +32,6 @@ std::string one_of(GEnumClass* known) {
   return "one of " + names;
 }
 
-/// What its values are.
 std::string values_of(GParamSpec* property) {
   if (G_IS_PARAM_SPEC_DOUBLE(property)) {
     const GParamSpecDouble* spec = G_PARAM_SPEC_DOUBLE(property);
@@ -48,7 +47,7 @@ std::string values_of(GParamSpec* property) {
   return "one of those that gst-inspect-1.0 spidarmotion lists";
 }
 
-/// Numbers have their unit in the description.
+/// The description of a number contains its unit.
 std::string unit(GParamSpec* property) {
   const GType type = G_PARAM_SPEC_VALUE_TYPE(property);
   const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_INT64;
@@ -56,7 +55,6 @@ std::string unit(GParamSpec* property) {
   return blurb ? std::string(". ") + blurb : std::string();
 }
 
-/// Those that can be set.
 std::vector<std::string> names_of_properties(GObject* element) {
   guint count = 0;
   g_autofree GParamSpec** all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
@@ -92,7 +90,7 @@ TypedProperty::TypedProperty(GObject* element, const std::string& text) {
   }
   g_value_init(&value_, property_->value_type);
   const bool understood = gst_value_deserialize_with_pspec(&value_, value.c_str(), property_);
-  // Clamps values that are out of range.
+  // GLib clamps values that are out of range.
   if (understood && !g_param_value_validate(property_, &value_)) return;
   g_value_unset(&value_);
   throw tools::UsageError(name + ": \"" + value + "\" is not " + values_of(property_) +

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Properties of spidarmotion as a user types them: NAME=VALUE.
 #pragma once
 
 #include <optional>
@@ -12,21 +11,21 @@
 
 namespace spidar {
 
-/// A property and the value for it. Sets nothing.
+/// A property of spidarmotion as a user types it, NAME=VALUE. Sets nothing.
 class TypedProperty {
  public:
   /// `element` is a spidarmotion. Throws tools::UsageError, which says what is wrong and what would
-  /// be right, for an unknown property and a value that it does not take.
+  /// be right, for an unknown property and a value that it does not accept.
   TypedProperty(GObject* element, const std::string& text);
   ~TypedProperty() { g_value_unset(&value_); }
   TypedProperty(const TypedProperty&) = delete;
   TypedProperty& operator=(const TypedProperty&) = delete;
 
-  /// The name as it is registered: `max-force`, even if `max_force` was typed.
+  /// The registered name: `max-force`, even if the user typed `max_force`.
   std::string name() const { return g_param_spec_get_name(property_); }
   const GValue* value() const { return &value_; }
   bool is_default() const { return g_param_value_defaults(property_, &value_) != FALSE; }
-  /// The same for all ways to type a value: `2` and `2.0`.
+  /// The same text for all ways to type a value: `2` and `2.0`.
   std::string canonical_value() const;
 
  private:
@@ -34,10 +33,10 @@ class TypedProperty {
   GValue value_ = G_VALUE_INIT;
 };
 
-/// The name in `preset=NAME`; nothing if `text` is not that.
+/// The name in `preset=NAME`; nothing for other texts.
 std::optional<std::string> preset_of(const std::string& text);
 
-/// Loads a preset of `element`. Throws tools::UsageError, which names those that there are.
+/// Loads a preset of `element`. Throws tools::UsageError, which lists the presets.
 void load_preset(GstElement* element, const std::string& name);
 
 }  // namespace spidar

@@ -103,16 +103,15 @@ constexpr bool is_in_order() {
 }
 static_assert(is_in_order());
 
-/// What is slower than this, in px/s of a frame 480 lines high, does not count as moving: half of
-/// 2.1 px/s, whose force a hand just feels with an alpha of 0.01 s/px (docs/feeling.md).
+/// A slower motion, in px/s of a frame 480 lines high, does not count: half of 2.1 px/s, whose
+/// force a hand just feels with an alpha of 0.01 s/px (docs/feeling.md).
 constexpr double kMoving_px_s = 1;
-/// With fewer points no motion differs from the background's: a translation of the background
-/// takes one of them, and an object two.
+/// With fewer points no motion differs from the background's: a translation of the background takes
+/// one of them, and an object two.
 constexpr int kFewestPoints = 4;
 /// When a hand swings a slack string, the pose is lost for less than this.
 constexpr int64_t kGripLost_ns = 100'000'000;
 
-/// Whether what was chosen leaves nothing to feel.
 bool is_withheld(const Frame& frame) {
   const Chosen& choice = frame.choice;
   if (choice.is_free()) return false;
@@ -122,7 +121,7 @@ bool is_withheld(const Frame& frame) {
   return choice.rule->kind == FeelRule::Kind::kNothing || choice.rule->gain == 0;
 }
 
-/// Whether an object in sight moves by more than its error. motion=mean knows no objects.
+/// Whether a visible object moves by more than its error. motion=mean knows no objects.
 bool objects_move(const Frame& frame) {
   return std::any_of(frame.objects.begin(), frame.objects.end(), [](const MovingObject& object) {
     return object.points > 0 && object.relative_px_s.norm() > object.error_px_s;
@@ -233,7 +232,7 @@ NoForceReason NoForceHistory::reason(int64_t now_ns) const noexcept {
       ++pictures[static_cast<size_t>(frame.reason)];
     }
   }
-  // What had nothing to be compared with says nothing where others do.
+  // A picture without a comparison says nothing where other pictures do.
   size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
   const bool any_incomparable = incomparable > 0;
   incomparable = 0;
@@ -267,7 +266,7 @@ NoForceReason NoForceWatch::film(const std::optional<LoopSnapshot>& loop) const 
   return frames_.reason(loop && loop->last.playing ? loop->last.running_ns : newest_ns_);
 }
 
-/// The last frame is on the screen. Without a device, that moment is not known.
+/// Whether the last frame is on the screen. Without a device, that moment is unknown.
 bool NoForceWatch::has_ended(const std::optional<LoopSnapshot>& loop) const {
   return is_last_ && (!loop || loop->last.running_ns >= newest_ns_);
 }
@@ -279,7 +278,7 @@ NoForceReason NoForceWatch::device(const std::optional<LoopSnapshot>& loop) cons
   if (is_at_rest && has_ended(loop)) return NoForceReason::kEnded;
   if (reason != NoForceReason::kNone) return reason;
   if (touching_) return reason_in_contact(*loop, can_touch_);
-  // Of frames that come too late, none may be due in the last second.
+  // When frames come too late, perhaps none is due in the last second.
   const int64_t due_ns = std::min(newest_ns_, loop->last.running_ns);
   const bool was_due = frames_.reason(due_ns) == NoForceReason::kNone;
   return was_due && is_late(*loop) ? NoForceReason::kLate : NoForceReason::kNone;
@@ -301,7 +300,7 @@ NoForceReason NoForceWatch::first(const std::optional<LoopSnapshot>& loop) const
   const NoForceReason of_device = device(loop);
   if (touching_) return of_device;
   const NoForceReason of_film = film(loop);
-  // That no frame is there may be because of the device.
+  // The lack of frames may be due to the device.
   const bool has_own = of_film != NoForceReason::kNone && of_film != NoForceReason::kNoFrames;
   return has_own || of_device == NoForceReason::kNone ? of_film : of_device;
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why nothing is felt: the reasons with the words for them, and which one holds for the film, the
-/// playback or the device.
 #pragma once
 
 #include <array>
@@ -19,9 +17,10 @@
 
 namespace spidar {
 
-/// The reason why the force is below kFeltForce_N, or is lowered (kGripReleased, kVibration). The
-/// reasons up to kEnded and those from kCannotTouch on are of the device, the playback or, while
-/// touching, the contact, and hold for any film; the others are the film's.
+/// Why nothing is felt: the reason why the force is below kFeltForce_N, or is lowered
+/// (kGripReleased, kVibration). The reasons up to kEnded and those from kCannotTouch on are of the
+/// device, the playback or, while touching, the contact, and hold for any film; the others are the
+/// film's.
 enum class NoForceReason {
   kNone,  ///< there is a force
   kDeviceLost,
@@ -45,11 +44,11 @@ enum class NoForceReason {
   kObjectsOnly,
   kNothingMoves,
   kTooWeak,
-  kSilentTrack,  ///< a haptic track is played in place of the video's motion
+  kSilentTrack,  ///< a haptic track replaces the video's motion
   kCannotTouch,  ///< these four while touching: the device has no third axis,
   kNoRelief,     ///< there is no surface,
   kNotTouching,  ///< the grip is in front of it,
-  kLightTouch,   ///< or touches it too lightly
+  kLightTouch,   ///< or the grip touches it too lightly
   kLate,
   kNoDevice,
 };
@@ -62,30 +61,29 @@ const char* sentence(NoForceReason reason) noexcept;
 /// The inverse of nick(); nothing for an unknown nick.
 std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept;
 
-/// The reason in the video, for one frame that was analysed for `motion`, whose wrench is what is
-/// rendered of it.
+/// The reason in the video, for one frame that was analysed for `motion`, with the rendered wrench.
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
 
 /// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
 /// device is open.
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
 
-/// A reason of the device or of the playback, which holds whatever the video shows; kNone when
-/// there is none. A device that is off because nothing was to be felt for minutes is none: it comes
-/// back with the force.
+/// A reason of the device or of the playback, which holds for any video; kNone when there is none.
+/// A device that is off because no force was wanted for minutes is no reason: it wakes with the
+/// force.
 NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted);
 
-/// Keeps the latest frames and finds why there was no force in the last second. Not thread-safe.
+/// Stores the latest frames and finds why there was no force in the last second. Not thread-safe.
 /// Allocates nothing.
 class NoForceHistory {
  public:
   static constexpr int64_t kWindow_ns = 1'000'000'000;
-  /// Older frames are dropped. Room for a second at 60 frames/s and 16 s of frames that wait to be
-  /// shown.
+  /// Older frames are dropped. The capacity is a second at 60 frames/s and 16 s of frames that wait
+  /// to be shown.
   static constexpr size_t kFrames = 1024;
 
-  /// Adds a frame that is shown at `shown_ns`, with the size of its force. Frames added before that
-  /// are not shown earlier are dropped.
+  /// Adds a frame that is shown at `shown_ns`, with the magnitude of its force. Earlier added
+  /// frames that are shown no earlier are dropped.
   void add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept;
 
   /// The reason for the frames shown in the second up to `now_ns`: kNone when one of them has a
@@ -110,22 +108,21 @@ class NoForceHistory {
   size_t next_ = 0;
 };
 
-/// The reason in the contact of the last tick, while `touch` is on and nothing has been felt for a
-/// second; kNone before. `can_touch`: see GripAbilities.
+/// The reason in the contact of the last tick, when nothing has been felt for a second with `touch`
+/// on; otherwise kNone. For `can_touch` see GripAbilities.
 NoForceReason reason_in_contact(const LoopSnapshot& loop, bool can_touch);
 
-/// Thread-safe. `loop` is nothing while no device is open.
 class NoForceWatch {
  public:
-  /// A frame that the sink shows at the running time `shown_ns`, with its wrench, and the reason
-  /// for one that is too weak to feel.
+  /// Adds a frame that the sink shows at the running time `shown_ns`, with its wrench, and the
+  /// reason for one that is too weak to feel.
   void add(int64_t shown_ns, const Wrench& wrench, NoForceReason reason);
-  /// No frames come after the one that was added last, until another one is added.
+  /// Tells that no frames follow the last one, until another one is added.
   void end();
-  /// Running time begins anew.
+  /// Tells that running time begins anew.
   void reset();
   void set_muted(bool muted) { muted_ = muted; }
-  /// While the picture is touched, the contact is felt, and not the film.
+  /// While the picture is touched, the hand feels the contact, not the film.
   void set_touching(bool touching) { touching_ = touching; }
   /// Whether the open device can touch, see GripAbilities.
   void set_can_touch(bool can_touch) { can_touch_ = can_touch; }
@@ -135,8 +132,7 @@ class NoForceWatch {
   NoForceReason of_film(const std::optional<LoopSnapshot>& loop) const;
   /// The reason of the device, the playback or the contact, now; kNone when there is none.
   NoForceReason of_device(const std::optional<LoopSnapshot>& loop) const;
-  /// The one to show to a person: the film's if it has one and has not ended, and else the
-  /// device's.
+  /// The reason to show to a person: the film's if it has one and has not ended, else the device's.
   NoForceReason first(const std::optional<LoopSnapshot>& loop) const;
 
  private:
@@ -147,7 +143,7 @@ class NoForceWatch {
   mutable std::mutex mutex_;
   NoForceHistory frames_;
   int64_t newest_ns_ = 0;
-  bool is_last_ = false;  ///< the newest frame is the last one
+  bool is_last_ = false;  ///< whether the newest frame is the last one
   std::atomic<bool> muted_{false};
   std::atomic<bool> touching_{false};
   std::atomic<bool> can_touch_{true};

@@ -13,10 +13,9 @@
 namespace spidar::screen {
 namespace {
 
-/// What is seen so briefly is not said: a cut, a film that is paused and goes on.
+/// A shorter state is not reported: a cut, a film that pauses briefly.
 constexpr int64_t kBrief_ns = 2'000'000'000;
 
-/// Reasons in `stats`.
 constexpr const char *kUnknown = "area-unknown", *kNoFilm = "no-film",
                      *kResting = "repeated-frames";
 
@@ -29,24 +28,24 @@ std::string text_in(const GstStructure* structure, const char* name) {
 
 FeltScreen::FeltScreen(View& view, const std::vector<std::string>& properties)
     : view_(view),
-      // The newest picture counts. Its conversion costs nothing where spidarmotion takes it as it
-      // is.
+      // The newest picture counts. Where spidarmotion accepts its format, the conversion costs
+      // nothing.
       pipeline_(follow::parse_pipeline(
           "queue name=newest leaky=downstream max-size-buffers=1 max-size-bytes=0 max-size-time=0 "
           "! videoconvert ! spidarmotion name=felt ! fakesink sync=false")) {
   GstBin* const bin = GST_BIN(pipeline_);
   felt_ = Ref<GstElement>(gst_bin_get_by_name(bin, "felt")).get();
   follow::set_properties(felt_, properties);
-  // Of the sources, some bring a clock of their own.
+  // Some sources bring a clock of their own.
   const Ref<GstClock> clock(gst_system_clock_obtain());
   gst_pipeline_use_clock(GST_PIPELINE(pipeline_), clock.get());
   const Ref<GstElement> newest(gst_bin_get_by_name(bin, "newest"));
   GstElement* const source = view_.make_source().release();
   gst_bin_add(bin, source);
-  gst_object_unref(source);  // of the bin from now on
+  gst_object_unref(source);  // the bin owns it from now on
   if (!gst_element_link(source, newest.get())) throw std::runtime_error("the source has no video");
   gst_element_set_state(pipeline_, GST_STATE_READY);
-  read_messages();  // which device that is
+  read_messages();  // reports which device that is
   if (is_simulated_ && !follow::wants_window(properties) && follow::has_display()) {
     g_object_set(felt_, "debug-window", TRUE, nullptr);
   }
@@ -80,7 +79,7 @@ void FeltScreen::say(Remark& last, const std::string& text) {
   if (std::exchange(told_, text) != text) follow::tell(text);
 }
 
-/// Empty while it is not known.
+/// Returns an empty text while the film is unknown.
 std::string FeltScreen::words_for_film(const GstStructure* stats) const {
   const Ref<GstPad> pad(gst_element_get_static_pad(felt_, "sink"));
   const Ref<GstCaps> caps(gst_pad_get_current_caps(pad.get()));

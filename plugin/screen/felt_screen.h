@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a screen shows, felt.
 #pragma once
 
 #include <memory>
@@ -18,19 +17,18 @@ namespace spidar::screen {
 class FeltScreen {
  public:
   /// `properties` are those of spidarmotion, NAME=VALUE. Opens the device and begins. Without a
-  /// device, the debug window shows what would be felt. Throws std::runtime_error, which says what
-  /// is wrong.
+  /// device, the debug window shows the force. Throws std::runtime_error, which says what is wrong.
   FeltScreen(View& view, const std::vector<std::string>& properties);
   ~FeltScreen();
   FeltScreen(const FeltScreen&) = delete;
   FeltScreen& operator=(const FeltScreen&) = delete;
 
-  /// Says what has changed. To be called a few times a second. False when it has ended.
+  /// Prints what has changed. Call this a few times a second. Returns false when the view has
+  /// ended.
   bool check();
 
  private:
-  /// Something that is said when it has been so for a while, and again when something else has been
-  /// said since.
+  /// A remark that is printed when it has been true for a while, and again after other remarks.
   struct Remark {
     std::string text;
     int64_t since_ns = 0;
@@ -46,10 +44,10 @@ class FeltScreen {
   GstElement* pipeline_;
   GstElement* felt_ = nullptr;  ///< owned by the pipeline
   bool is_simulated_ = false;
-  std::set<std::string> said_;  ///< of messages
+  std::set<std::string> said_;  ///< printed messages
   std::string told_;            ///< the last remark
-  Remark film_;                 ///< where it is
-  Remark reason_;               ///< why nothing is felt
+  Remark film_;                 ///< on the position of the film
+  Remark reason_;               ///< on why nothing is felt
 };
 
 }  // namespace spidar::screen

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the desktop's portal answers. It is another program, so each value is checked for its type.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,8 @@
 
 namespace spidar::screen {
 
-/// Reads a value as g_variant_get() does. Returns false, and reads nothing, if it is of another
-/// type.
+/// Reads a value of the desktop's portal as g_variant_get() does. The portal is another program, so
+/// the type of each value is checked: returns false, and reads nothing, if it is another one.
 template <typename... To>
 bool read_variant(GVariant* value, const char* format, To... to) {
   if (!value || !g_variant_check_format_string(value, format, FALSE)) return false;
@@ -20,7 +19,8 @@ bool read_variant(GVariant* value, const char* format, To... to) {
   return true;
 }
 
-/// Of a Request, the status and an "a{sv}" of results; none if it is no such answer.
+/// The answer to a Request: its status and an "a{sv}" of results; no results if it has another
+/// form.
 struct PortalAnswer {
   static constexpr guint kAllowed = 0, kCancelled = 1;
 
@@ -33,16 +33,16 @@ struct PortalAnswer {
   Ref<GVariant> results;
 };
 
-/// Of the results of CreateSession, the object that is the session; empty if they name none.
+/// The object path of the session in the results of CreateSession; empty if there is none.
 inline std::string session_in(GVariant* results) {
   const gchar* path = "";
   g_variant_lookup(results, "session_handle", "&s", &path);
   return g_variant_is_object_path(path) ? path : "";
 }
 
-/// Of the results of Start.
+/// The results of Start.
 struct Shared {
-  // Of the interface: AvailableSourceTypes and `types`.
+  // Values of AvailableSourceTypes and `types` in the interface.
   static constexpr guint kMonitor = 1, kWindow = 2;
 
   Shared() = default;
@@ -62,7 +62,7 @@ struct Shared {
     is_something = true;
   }
 
-  bool is_something = false;  ///< otherwise the desktop shares nothing
+  bool is_something = false;  ///< false: the desktop shares nothing
   bool is_window = false;
   uint32_t node = 0;
   std::string token;  ///< for the next time; empty if the desktop gives none

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The desktop's portal for what is on the screen, org.freedesktop.portal.ScreenCast.
+// Screens and windows from the desktop's portal, org.freedesktop.portal.ScreenCast.
 //
-// libportal 0.6 does not serve: it waits for ever for an answer of another type and for a portal
-// that has ended, and keeps to itself why there is no connection to PipeWire.
+// libportal 0.6 does not suffice: it waits for ever for an answer of another type and for a portal
+// that has ended, and does not report why there is no connection to PipeWire.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -28,12 +28,11 @@ constexpr const char* kPath = "/org/freedesktop/portal/desktop";
 constexpr const char* kScreenCast = "org.freedesktop.portal.ScreenCast";
 constexpr const char* kRequest = "org.freedesktop.portal.Request";
 constexpr const char* kSession = "org.freedesktop.portal.Session";
-/// Of the interface, `persist_mode`.
+/// A value of the interface's `persist_mode`.
 constexpr guint kUntilRevoked = 2;
-/// For its first answer, the bus starts the portal, which starts that of the desktop.
+/// Before the first answer, the bus starts the portal, which starts that of the desktop.
 constexpr int kStart_ms = 25'000;
 
-/// The user said no.
 struct NotAllowed : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -53,7 +52,7 @@ void take_answer(GDBusConnection*, const gchar*, const gchar*, const gchar*, con
   static_cast<std::optional<PortalAnswer>*>(answer)->emplace(parameters);
 }
 
-/// A portal that is gone answers nothing more.
+/// A portal that has ended answers no call.
 void take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
                 GVariant* parameters, gpointer answer) {
   const gchar* owner = "";
@@ -69,7 +68,7 @@ void set_true(GDBusConnection*, const gchar*, const gchar*, const gchar*, const 
 
 namespace fs = std::filesystem;
 
-/// What the user allowed last, as the desktop names it.
+/// The last permission of the user, as the desktop names it.
 fs::path token_file() {
   return fs::path(g_get_user_state_dir()) / "gst-spidar" / "screen-token";
 }
@@ -80,7 +79,7 @@ std::string read_token() {
   return token;
 }
 
-/// Without it, the desktop asks again, so a file that cannot be written is no error.
+/// Without the token, the desktop asks again, so a file that cannot be written is no error.
 void write_token(const std::string& token) {
   std::error_code error;
   if (token.empty()) {
@@ -92,12 +91,12 @@ void write_token(const std::string& token) {
   std::ofstream(token_file(), std::ios::trunc) << token << '\n';
 }
 
-/// One sharing of a screen or a window, which the user allows in a dialog of the desktop. Iterates
-/// the main context while it waits.
+/// A shared screen or window, which the user allows in a dialog of the desktop. Iterates the main
+/// context while it waits.
 class PortalView final : public View {
  public:
-  /// `token` is that of a sharing that was allowed before; the desktop then asks only if it is
-  /// void. Empty: it asks.
+  /// `token` is that of an earlier permission; the desktop then asks only if the token is void.
+  /// With an empty token, the desktop asks.
   explicit PortalView(const std::string& token);
   ~PortalView() override { end(); }
   PortalView(const PortalView&) = delete;
@@ -127,16 +126,16 @@ class PortalView final : public View {
                     std::initializer_list<Option> options);
   Ref<GVariant> call(const char* method, GVariant* arguments,
                      GUnixFDList** descriptors = nullptr) const;
-  /// pipewiresrc waits on then.
+  /// In that case pipewiresrc does not end by itself.
   bool is_without_pipewire() const {
     pollfd remote{descriptor_, 0, 0};
     return poll(&remote, 1, 0) > 0;
   }
 
   Ref<GDBusConnection> bus_;
-  std::string session_;  ///< its path; empty: there is none
+  std::string session_;  ///< object path; empty: there is none
   guint ended_signal_ = 0;
-  bool has_ended_ = false;  ///< by the desktop or the user
+  bool has_ended_ = false;  ///< the desktop or the user has ended it
   Shared shared_;
   int descriptor_ = -1;  ///< for a PipeWire client
 };
@@ -156,7 +155,7 @@ PortalView::PortalView(const std::string& token) : PortalView() {
     throw;
   } catch (const std::runtime_error&) {
     if (token.empty()) throw;
-    // It may be void, which portals say in several ways.
+    // The token may be void, which portals report in several ways.
     end();
     share("");
   }
@@ -175,7 +174,7 @@ void PortalView::share(const std::string& token) {
       set_true, &has_ended_, nullptr);
   GVariant* const session = g_variant_new_object_path(session_.c_str());
   const Ref<GVariant> own(g_variant_ref_sink(session));
-  // The mouse is hidden unless it is asked for.
+  // By default the mouse is hidden.
   const Option types{"types", g_variant_new_uint32(Shared::kMonitor | Shared::kWindow)};
   const Option persist{"persist_mode", g_variant_new_uint32(kUntilRevoked)};
   if (token.empty()) {
@@ -220,7 +219,7 @@ Ref<GVariant> PortalView::call(const char* method, GVariant* arguments,
 
 Ref<GVariant> PortalView::ask(const char* method, std::vector<GVariant*> arguments,
                               std::initializer_list<Option> options) {
-  // The answer may come before the call returns, so it is waited for by the path that it will have.
+  // The answer may come before the call returns, so this object waits for the expected path.
   std::string sender = g_dbus_connection_get_unique_name(bus_.get()) + 1;
   std::replace(sender.begin(), sender.end(), '.', '_');
   const std::string handle = std::string("spidar_") + method;
@@ -276,7 +275,7 @@ void PortalView::open_remote() {
 }
 
 Ref<GstElement> PortalView::make_source() {
-  // Plain bytes: a source that has others as well gives them, too, when only these are taken.
+  // Plain bytes: a source that also offers others gives them, too, when only these are accepted.
   const std::string line = "pipewiresrc do-timestamp=true fd=" + std::to_string(descriptor_) +
                            " path=" + std::to_string(shared_.node) +
                            " ! capsfilter caps=video/x-raw";

@@ -28,7 +28,7 @@ bool is_wayland() {
   return display && *display;
 }
 
-/// Windows of Wayland are seen by nobody but the desktop.
+/// Only the desktop sees the windows of Wayland.
 std::unique_ptr<View> choose_view(const std::string& what) {
   if (!is_wayland()) {
 #ifdef SPIDAR_HAS_X11

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is looked at: a screen, or a window on it.
 #pragma once
 
 #include <memory>
@@ -12,7 +11,7 @@
 
 namespace spidar::screen {
 
-/// One thread, but for the pictures that its source makes.
+/// A screen, or a window on it. One thread, except for the pictures that its source makes.
 class View {
  public:
   virtual ~View() = default;
@@ -20,22 +19,22 @@ class View {
   virtual std::string name() const = 0;
   /// A new element, whose pictures are live.
   virtual Ref<GstElement> make_source() = 0;
-  /// What has become of it since the last call, in a sentence; empty: nothing. Called a few times
-  /// a second.
+  /// What has changed since the last call, in a sentence; empty: nothing. Called a few times a
+  /// second.
   virtual std::string change() = 0;
-  /// Whether pictures of it come; until they do, they say nothing of a film.
+  /// Whether its pictures come; until then they tell nothing about a film.
   virtual bool is_shown() const { return true; }
-  /// Whether no further picture of it comes.
+  /// Whether no further picture comes.
   virtual bool has_ended() const = 0;
 };
 
-/// `what`: the title of a window or a part of it, "ask" for a click on a window, or empty for the
-/// whole screen. Waits for that click. Throws std::runtime_error, which says what is wrong and what
-/// helps.
+/// `what` is the title of a window or a part of the title, "ask" for a click on a window, or empty
+/// for the whole screen. Waits for that click. Throws std::runtime_error, which says what is wrong
+/// and what helps.
 std::unique_ptr<View> view_of_x11(const std::string& what);
 
-/// A program of X11 or Wayland as the desktop lets the user choose it: `is_asked` again, or as last
-/// time. Throws like view_of_x11().
+/// A program of X11 or Wayland that the user chooses in a dialog of the desktop: again if
+/// `is_asked`, otherwise as last time. Throws like view_of_x11().
 std::unique_ptr<View> view_of_portal(bool is_asked);
 
 }  // namespace spidar::screen

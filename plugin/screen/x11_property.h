@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Properties of windows, which any program may set to anything.
 #pragma once
 
 #include <string>
@@ -9,16 +8,16 @@
 
 namespace spidar::screen {
 
-/// A property as XGetWindowProperty() gives it.
+/// A property of a window as XGetWindowProperty() returns it. Any program may set it to anything.
 struct Property {
   unsigned long type = 0;
-  int bits = 0;             ///< of an item: 8, 16 or 32; 0 without the property
+  int bits = 0;             ///< per item: 8, 16 or 32; 0 without the property
   unsigned long count = 0;  ///< of items
   const unsigned char* data = nullptr;
 };
 
-/// Its items, where it has this type and items of this size: 8 bits are a char, 32 are a long,
-/// however long that is. Otherwise none.
+/// The items, if they have this type and this size: 8 bits are a char, 32 are a long, however long
+/// that is. Otherwise none.
 template <typename Items>
 Items items_of(const Property& property, unsigned long type) {
   using Item = typename Items::value_type;
@@ -29,7 +28,7 @@ Items items_of(const Property& property, unsigned long type) {
   return {items, items + property.count};
 }
 
-/// As UTF-8, up to a zero. What is none is taken for Latin-1, as which every byte is a letter.
+/// Returns UTF-8, up to a zero. Other text is read as Latin-1, in which every byte is a letter.
 inline std::string text_of(const std::string& bytes) {
   const std::string text = bytes.c_str();
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;

@@ -18,13 +18,14 @@
 namespace spidar::screen {
 namespace {
 
-/// Of films, the fastest; a game is felt no better with more, and each takes a copy of the picture.
+/// The fastest films have this rate. A higher one does not improve how a game feels, and each
+/// picture is copied.
 constexpr int kPictures_Hz = 60;
 
 /// The debug window opens in one of so many parts of the screen's width and height.
 constexpr int kOwnParts = 3;
 
-/// What can be seen of a window.
+/// Which part of a window is visible.
 enum class Sight { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
 
 std::string words_for(Sight sight) {
@@ -59,7 +60,7 @@ void paint_black(GstVideoFrame& frame, const XWindowAttributes& part) {
   }
 }
 
-/// Its connection is another one than that of the source.
+/// Uses another connection than the source.
 class X11View : public View {
  public:
   using Connection = std::unique_ptr<Display, int (*)(Display*)>;
@@ -106,7 +107,7 @@ class X11View : public View {
     return sight_ != Sight::kHidden && sight_ != Sight::kOutside && sight_ != Sight::kClosed;
   }
   bool has_ended() const override { return sight_ == Sight::kClosed; }
-  /// What is to be said of it from the beginning; empty: it can be seen.
+  /// What to print at the beginning; empty: the window is visible.
   std::string first_words() const {
     return sight_ == Sight::kWhole ? "" : name_ + " " + words_for(sight_);
   }
@@ -125,7 +126,7 @@ class X11View : public View {
     if (name_.empty() || XGetWindowAttributes(display_, window_, &now)) name_ = name();
   }
 
-  /// Whether a pixel of it can be read: not where it lies beyond the edge of the screen, unless a
+  /// Whether a pixel of the window can be read: not beyond the edge of the screen, unless a
   /// compositor keeps its picture.
   bool can_read(int x, int y) const {
     XImage* const pixel = XGetImage(display_, window_, x, y, 1, 1, AllPlanes, ZPixmap);
@@ -144,8 +145,8 @@ class X11View : public View {
     return visibility_ == VisibilityPartiallyObscured ? Sight::kPart : Sight::kWhole;
   }
 
-  /// Takes a window that has just opened out of the way, into the lower right corner of the screen:
-  /// a window manager or its absence may have put it over the film, which nobody would then see.
+  /// Moves a window that has just opened into the lower right corner of the screen: a window
+  /// manager or its absence may have put it over the film, which would be hidden then.
   void put_aside(Window own) {
     if (!put_aside_.insert(own).second || !has_looked_) return;
     const int screen = DefaultScreen(display_);
@@ -155,7 +156,7 @@ class X11View : public View {
                       side(width), side(height));
   }
 
-  /// Where windows of this project are on the screen.
+  /// Finds this project's windows on the screen.
   void find_own() {
     std::vector<XWindowAttributes> found;
     for (const Window window : program_windows(display_)) {
@@ -174,9 +175,9 @@ class X11View : public View {
     own_ = std::move(found);
   }
 
-  /// Where it cannot read, ximagesrc gives what its buffers held before: several old pictures in
-  /// turn, whose motion would be felt. The debug window shows the film once more. Black rests, so
-  /// it is no film.
+  /// Where ximagesrc cannot read, it repeats the old content of its buffers: several old pictures
+  /// in turn, whose motion would be felt. The debug window shows the film a second time. This probe
+  /// therefore makes both black, which is still and no film.
   static GstPadProbeReturn leave_out(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
     if (take_x11_failure()) return GST_PAD_PROBE_DROP;
     auto& self = *static_cast<X11View*>(user);
@@ -202,7 +203,7 @@ class X11View : public View {
   int visibility_ = VisibilityUnobscured;
   Sight sight_ = Sight::kWhole;
   std::set<Window> put_aside_;
-  bool has_looked_ = false;  // what is open at the first look has been put there by the user
+  bool has_looked_ = false;  // windows that are open at the first search were placed by the user
   std::mutex mutex_;
   std::vector<XWindowAttributes> own_;  ///< their x and y are those on the screen
 };
@@ -213,7 +214,7 @@ bool contains(const std::string& text, const std::string& part) {
   return std::strstr(all, some) != nullptr;
 }
 
-/// The uppermost window with this title, or else with it as a part of its own.
+/// Returns the uppermost window with this title, or else with this text as a part of its title.
 Window window_called(Display* display, const std::string& title) {
   Window found = 0;
   std::string others;

@@ -17,7 +17,7 @@ namespace {
 template <typename Data>
 using FromX = std::unique_ptr<Data, int (*)(void*)>;
 
-/// Empty when the window does not have it, or as another type.
+/// Returns nothing when the window does not have the property, or has it as another type.
 template <typename Items>
 Items property_of(Display* display, Window window, const char* name, const char* type) {
   constexpr long kMaxWords = 16'384;

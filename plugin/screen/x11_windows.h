@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Windows of an X server.
 #pragma once
 
 #include <X11/Xlib.h>
@@ -9,21 +8,19 @@
 
 namespace spidar::screen {
 
-/// The class of the windows of this project, which nobody wants to feel.
+/// The class of this project's windows, which nobody wants to feel.
 constexpr const char* kOwnClass = "spidar-window";
 
 /// From now on, a call that fails because a window is gone has no consequence; otherwise Xlib ends
-/// the process. It does so when the server ends, and the guardian sets the motors to zero. For all
-/// connections of the process.
+/// the process, as it still does when the server ends, and the guardian sets the motors to zero.
+/// For all connections of the process.
 void handle_x11_errors();
 
-/// Whether a call that this thread waited for has failed since it last asked.
+/// Whether a call that this thread waited for has failed since the last query.
 bool take_x11_failure();
 
-/// Empty for a window without one.
 std::string title_of(Display* display, Window window);
 
-/// Whether it is one of this project's.
 bool is_own(Display* display, Window window);
 
 /// Windows of programs, the uppermost last; also minimised ones where a window manager lists them.

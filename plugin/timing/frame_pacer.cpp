@@ -11,9 +11,9 @@
 namespace spidar {
 namespace {
 
-/// Least interval between frames: if they are closer together, one timestamp is wrong, and a motion
-/// must not be divided by their difference. An eighth of the interval in the caps, within plausible
-/// limits.
+/// The shortest interval between frames: an eighth of the interval in the caps, within plausible
+/// limits. If frames are closer together, one timestamp is wrong, and a motion must not be divided
+/// by their difference.
 int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
   constexpr double kMax_ns = 5e6;
   if (info.fps_n <= 0) return kMinInterval_ns;
@@ -55,8 +55,8 @@ FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& fra
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) return Order::kFirst;
   if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
       running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
-    // After an accurate seek, next to nothing may be left of the first frame, and nothing is left
-    // of the previous segment.
+    // After an accurate seek, hardly any of the first frame may remain, and nothing of the previous
+    // segment.
     return frames_in_segment_ > 1 ? Order::kTooSoon : Order::kFirst;
   }
   return running_ns < last_running_ns_ ? Order::kFalling : Order::kNext;
@@ -69,7 +69,7 @@ PacedTime FramePacer::at(int64_t running_ns, double rate_multiplier) const {
   if (last_running_ns_ < 0) return time;
   const double since_ns = static_cast<double>(running_ns - last_running_ns_) / rate_multiplier;
   const double paced_ns = static_cast<double>(last_paced_ns_) + since_ns;
-  if (std::fabs(paced_ns) <= static_cast<double>(kLatest_ns)) {  // else it starts again
+  if (std::fabs(paced_ns) <= static_cast<double>(kLatest_ns)) {  // otherwise it starts again
     time.paced_ns = last_paced_ns_ + std::llround(since_ns);
   }
   time.since_ns = time.paced_ns - last_paced_ns_;

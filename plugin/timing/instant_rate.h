@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Changes of the playback rate without a seek.
 #pragma once
 
 #include <algorithm>
@@ -18,10 +17,10 @@ inline bool is_time(GstClockTime running_time) {
   return running_time <= static_cast<GstClockTime>(kLatest_ns);
 }
 
-/// Converts running times of the element to those of the sink. They differ after an instant change
-/// of the rate: segments stay as they are, and the sink shows frames closer together. The pipeline
-/// states where the change takes place (INSTANT_RATE_SYNC_TIME, GStreamer's design document
-/// "seeking", section "instant rate changes").
+/// Converts running times of the element to those of the sink. They differ after a change of the
+/// rate without a seek: segments stay as they are, and the sink shows frames closer together. The
+/// pipeline announces where the change takes place (INSTANT_RATE_SYNC_TIME, GStreamer's design
+/// document "seeking", section "instant rate changes").
 class InstantRate {
  public:
   /// From here on, the sink shows frames `multiplier` times as fast: the one at `upstream` here is
@@ -36,7 +35,7 @@ class InstantRate {
 
   double multiplier() const { return multiplier_; }
 
-  /// The result lies within ±kLatest_ns, as `running_ns` has to.
+  /// The result lies within ±kLatest_ns, as `running_ns` must.
   gint64 at_sink(gint64 running_ns) const {
     const gint64 since_ns = running_ns - here_ns_;
     if (multiplier_ == 1) return std::clamp(shown_ns_ + since_ns, -kLatest_ns, kLatest_ns);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Samples of a track and wrenches of frames on their way to the haptic loop; those of frames are
-/// converted from the running time of the element to that of the sink.
 #pragma once
 
 #include <cstddef>
@@ -19,13 +17,13 @@
 
 namespace spidar {
 
-/// Hands wrenches or blocks of samples to the loop; entries for which it has no room wait here.
-/// Thread-safe; without a loop, entries are discarded.
+/// Forwards wrenches of frames or samples of a track to the haptic loop; entries beyond the loop's
+/// capacity wait here. Thread-safe; without a loop, entries are discarded.
 template <typename Entry>
 class LoopQueue {
  public:
-  /// While `most_waiting` entries wait, further ones are refused. The last `kept` entries stay here
-  /// after they were forwarded, for forward_again().
+  /// While `most_waiting` entries wait, further ones are refused. The last `kept` forwarded entries
+  /// stay here, for forward_again().
   explicit LoopQueue(size_t most_waiting, size_t kept = 0)
       : most_waiting_(most_waiting), kept_(kept) {}
   LoopQueue(const LoopQueue&) = delete;
@@ -49,8 +47,7 @@ class LoopQueue {
     entries_.push_back(entry);
     forward_locked();
   }
-  /// Tries again to forward the entries that wait. To be called while playing, more often than
-  /// every 50 ms.
+  /// Tries again to forward waiting entries. While playing, call this more often than every 50 ms.
   void forward_waiting() {
     const std::lock_guard<std::mutex> lock(mutex_);
     forward_locked();
@@ -60,13 +57,13 @@ class LoopQueue {
     const std::lock_guard<std::mutex> lock(mutex_);
     clear_locked();
   }
-  /// Entries added while muted are discarded; muting also discards those from before.
+  /// Discards entries while muted; muting also discards the earlier ones.
   void set_muted(bool muted) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (muted && !muted_) clear_locked();
     muted_ = muted;
   }
-  /// Wrenches or samples refused since the connection because there was no room.
+  /// Entries that a full queue has refused since the connection.
   uint64_t refused() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return refused_;
@@ -78,7 +75,7 @@ class LoopQueue {
     entries_.clear();
     handed_ = 0;
   }
-  /// Cancels what the loop has and forwards all entries that are still here.
+  /// Cancels the loop's entries and forwards all entries that are still here.
   void forward_again() {
     handed_ = 0;
     if (loop_) loop_->cancel_scheduled();
@@ -86,7 +83,7 @@ class LoopQueue {
   }
 
   mutable std::mutex mutex_;
-  InstantRate instant_rate_;  ///< of wrenches; samples have running times of the sink
+  InstantRate instant_rate_;  ///< for wrenches; samples have running times of the sink
   std::pmr::unsynchronized_pool_resource pool_;  ///< so that a queue that has grown needs no heap
   std::pmr::deque<Entry> entries_{&pool_};
 
@@ -122,14 +119,14 @@ class LoopQueue {
 /// or 1 s in blocks of one sample each.
 constexpr size_t kMaxBlocksWaiting = 1000;
 
-/// Turns the running times of an element into those of the sink behind it. Seconds may lie between
-/// the two: of frames that wait, or of a long ts-offset.
+/// Converts the running times of an element to those of the sink behind it. Waiting frames or a
+/// long ts-offset may put seconds between the two.
 class WrenchBacklog : public LoopQueue<TimedWrench> {
  public:
   /// More wrenches than wait for any sink: a quarter of an hour at 60 frames/s.
   static constexpr size_t kMaxWaiting = 1 << 16;
   /// Forwarded wrenches that are kept for a change of the rate, since the loop may not have
-  /// rendered them: at least as many as fit into its ring and its timeline together.
+  /// rendered them: the capacity of its ring and its timeline together.
   static constexpr size_t kHandedOn = 512;
   WrenchBacklog() : LoopQueue(kMaxWaiting, kHandedOn) {}
 
@@ -146,8 +143,8 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto skipped = static_cast<GstClockTime>(skipped_ns_);
     instant_rate_.change(multiplier, running_time + skipped, upstream + skipped);
-    // Frames between here and the sink were analysed at the old rate and are shown at other times
-    // now. The frame on the screen is the first of them, so that the force continues from there.
+    // Frames between here and the sink were analysed at the old rate, and their times change now.
+    // The frame on the screen is the first of them, so that the force continues from there.
     while (entries_.size() > 1 && entries_[1].time_ns <= static_cast<int64_t>(upstream + skipped)) {
       entries_.pop_front();
     }
@@ -157,7 +154,7 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     const std::lock_guard<std::mutex> lock(mutex_);
     return instant_rate_.multiplier();
   }
-  /// Running time at the sink of a frame that is at `running_ns` here, as far as is known.
+  /// The running time at the sink of a frame that is at `running_ns` here, as far as is known.
   int64_t at_sink_ns(int64_t running_ns) const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return instant_rate_.at_sink(running_ns + skipped_before_ns_);
@@ -172,12 +169,11 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     const std::lock_guard<std::mutex> lock(mutex_);
     return skipped_ns_;
   }
-  /// A sink that has skipped something is in time with the segment again.
+  /// A sink that has stepped is in time with a new segment again.
   void begin_segment() {
     const std::lock_guard<std::mutex> lock(mutex_);
     skipped_before_ns_ = skipped_ns_;
   }
-  /// Running time begins anew.
   void reset() {
     const std::lock_guard<std::mutex> lock(mutex_);
     instant_rate_.reset();
@@ -187,7 +183,7 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
 
  private:
   int64_t skipped_ns_ = 0;         ///< by the sink, since the last flush
-  int64_t skipped_before_ns_ = 0;  ///< the part of skipped_ns_ before this segment
+  int64_t skipped_before_ns_ = 0;  ///< the part before this segment
 };
 
 }  // namespace spidar

@@ -18,7 +18,6 @@ bool waits_for_clock(GstElement* element) {
   return GST_IS_BASE_SINK(element) && gst_base_sink_get_sync(GST_BASE_SINK(element));
 }
 
-/// Whether `object` has a readable property of this name and type.
 bool has_property(GObject* object, const char* name, GType type) {
   const GParamSpec* spec = g_object_class_find_property(G_OBJECT_GET_CLASS(object), name);
   return spec && spec->value_type == type && (spec->flags & G_PARAM_READABLE);
@@ -38,7 +37,7 @@ std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
   return offset_ns;
 }
 
-/// Latency of the live sources, as such an element queries it; 0 without live sources.
+/// The latency of the live sources, as such an element queries it; 0 without live sources.
 GstClockTimeDiff latency_before(GstPad* sink_pad) {
   const Ref<GstQuery> query(gst_query_new_latency());
   gboolean live = FALSE;
@@ -135,7 +134,7 @@ void PlaybackFollower::set_latency(GstClockTime latency) {
 }
 
 void PlaybackFollower::look_for_sink() {
-  // The search is left to the next refresh, because this thread is linking pads.
+  // The next refresh searches, because this thread is linking pads.
   const std::lock_guard<std::mutex> lock(mutex_);
   sink_outdated_ = true;
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Keeps the haptic loop's idea of the playback clock fresh.
 #pragma once
 
 #include <condition_variable>
@@ -20,7 +19,7 @@ namespace spidar {
 /// The delay of an element's frames on the way to the screen: the latency that the sink received,
 /// `ts-offset` of the sink (playbin: av-offset), offsets of the pads on the way, and elements on
 /// the way that wait for the clock themselves (`clocksync`, `identity sync=true`). The sink shows a
-/// frame when the last of those that wait has let it go.
+/// frame when the last of the waiting elements has passed it on.
 ///
 /// Only the latency is sent in an event, which is not repeated for an element that joins a pipeline
 /// already playing: therefore this class examines the path to the sink itself.
@@ -33,12 +32,13 @@ class PresentationDelay {
   PresentationDelay(const PresentationDelay&) = delete;
   PresentationDelay& operator=(const PresentationDelay&) = delete;
 
-  /// Looks downstream of `element`, through bins, for the first sink that waits for the clock, and
-  /// keeps the path to it until reset(). To be called again whenever the sink may have changed.
+  /// Searches downstream of `element`, through bins, for the first sink that waits for the clock,
+  /// and keeps the path to that sink until reset(). Call this again whenever the sink may have
+  /// changed.
   void follow(GstElement* element);
   void reset();
 
-  /// Takes the latency of the LATENCY event, which counts where nothing that waits is found.
+  /// Takes the latency of the LATENCY event, which counts where no waiting element is found.
   void set_latency(GstClockTime latency);
 
   /// The present delay in ns; > 0: frames are shown later.
@@ -50,38 +50,37 @@ class PresentationDelay {
   GstClockTimeDiff told_ns_ = 0;
 };
 
-/// Observes the pipeline's clock, and what delays the picture behind the element, a hundred times a
-/// second while playing. It does not wait for frames, because a queue behind the element may hold
-/// them back while a seek changes the base time and an audio clock drifts. Thread-safe.
+/// Publishes to the haptic loop the pipeline's clock, and what delays the picture behind the
+/// element, a hundred times a second while playing. It does not wait for frames, because a queue
+/// behind the element may hold them back while a seek changes the base time and an audio clock
+/// drifts. Thread-safe.
 class PlaybackFollower {
  public:
   explicit PlaybackFollower(GstElement* element) : element_(element) {}
   ~PlaybackFollower() { end(); }
 
-  /// Begins to publish for a device, before playback starts. `now` is that of PlaybackSync. If it
-  /// is not `threaded`, the owner calls refresh().
+  /// Begins to publish for a device, before playback starts. `now` is that of PlaybackSync. Unless
+  /// `threaded`, the owner calls refresh().
   void begin(std::function<void(const PlaybackClock&)> publish, std::function<int64_t()> now,
              bool threaded);
-  /// Stops publishing.
   void end();
 
   void set_playing(bool playing);
   void set_latency(GstClockTime latency);
   void set_offset(GstClockTimeDiff offset_ns);
-  /// The running time that the sink has stepped over: it shows later frames that much earlier.
+  /// Sets the running time that the sink has stepped over: it shows later frames that much earlier.
   void set_skipped(int64_t skipped_ns);
-  /// Something behind the element was linked anew.
+  /// Tells that links behind the element have changed.
   void look_for_sink();
-  /// See PlaybackSync::expect_base_time().
   void expect_base_time();
-  /// Reads the pipeline's clock now; the thread does so on its own.
+  /// Reads the pipeline's clock now, as the thread does regularly.
   void refresh();
 
  private:
   void run();
   void refresh_locked();
 
-  GstElement* const element_;  ///< owns the owner of this
+  GstElement* const element_;  ///< owns the owner of this object
   std::mutex mutex_;
   std::condition_variable changed_;
   std::function<void(const PlaybackClock&)> publish_;  ///< null: there is no device

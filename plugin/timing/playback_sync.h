@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Conversion from the pipeline's clock to the haptic loop's.
 #pragma once
 
 #include <algorithm>
@@ -19,15 +18,15 @@
 
 namespace spidar {
 
-/// Observes an element's clock and base time and computes which running time is on the screen at
-/// which moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency,
-/// and the latency is part of the offset here, so the running time presented is clock − base time −
+/// Converts the pipeline's clock to the haptic loop's: computes which running time is on the screen
+/// at which moment of CLOCK_MONOTONIC. A sink shows a buffer at base time + running time + latency,
+/// and the offset here includes the latency, so the running time presented is clock − base time −
 /// offset.
 ///
 /// Not thread-safe: the owner holds one lock around it.
 class PlaybackSync {
  public:
-  /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's idea of it.
+  /// `now` reads CLOCK_MONOTONIC in nanoseconds, or a test's replacement.
   explicit PlaybackSync(std::function<int64_t()> now) : now_(std::move(now)) {}
 
   /// True from PAUSED→PLAYING to PLAYING→PAUSED.
@@ -37,9 +36,10 @@ class PlaybackSync {
     reset_clock();
   }
 
-  /// Running time has begun anew (flushing seek): the element's base time is outdated until the
-  /// pipeline has prerolled and distributes another one. Until then nothing is on the screen. A
-  /// sink that does not preroll keeps its base time, which is trusted again after three seconds.
+  /// Tells that running time has begun anew (flushing seek): the element's base time is outdated
+  /// until the pipeline has prerolled and distributes another one. Until then nothing is on the
+  /// screen. A sink that does not preroll keeps its base time, which counts again after three
+  /// seconds.
   void expect_base_time(GstElement* element) {
     constexpr int64_t kPatience_ns = 3'000'000'000;
     outdated_base_time_ = gst_element_get_base_time(element);
@@ -53,14 +53,14 @@ class PlaybackSync {
   void set_skipped(int64_t skipped_ns) { skipped_ns_ = skipped_ns; }
 
   /// Reads the element's clock and returns the line through the readings so far. A clock other than
-  /// the system's reads with jitter, so the line is fitted; a jump that lasts starts it anew. A
-  /// clock that stands still, or cannot be read any more, leaves the picture on the screen: the
+  /// the system's reads with jitter, so the line is fitted; a lasting jump begins another line.
+  /// When a clock stands still, or can no longer be read, the picture stays on the screen, so the
   /// line is valid for kLongestStandstill_ns only.
   PlaybackClock observe(GstElement* element) {
     PlaybackClock result;
     const GstClockTime base_time = gst_element_get_base_time(element);
     const Ref<GstClock> clock(playing_ ? gst_element_get_clock(element) : nullptr);
-    // Not playing: there must be no force.
+    // While not playing there must be no force.
     if (!clock || !GST_CLOCK_TIME_IS_VALID(base_time)) return result;
     const int64_t before_ns = now_();
     if (base_time == outdated_base_time_ && before_ns < outdated_until_ns_) return result;
@@ -84,19 +84,19 @@ class PlaybackSync {
     return result;
   }
 
-  /// The time for which a frame is held. The clock of a sound card that is read in whole periods
-  /// stands still for a shorter time.
+  /// How long a frame may stay. The clock of a sound card that is read in whole periods stands
+  /// still for a shorter time.
   static constexpr int64_t kLongestStandstill_ns = 100 * 1000 * 1000;
 
  private:
   static constexpr size_t kWindow = 64;
   /// With fewer readings, jitter hides the drift: the newest one and the nominal rate are used.
   static constexpr size_t kEnough = 16;
-  /// A reading further than this from the line is no jitter.
+  /// A reading further than this from the line is not jitter.
   static constexpr int64_t kJump_ns = 5 * 1000 * 1000;
-  /// This many such readings in a row mean another clock or a step in it. Fewer come from a sound
-  /// card's clock in the middle of an update: it stands still while the thread that feeds the card
-  /// is preempted.
+  /// So many such readings in a row mean another clock or a step in it. Fewer come from a sound
+  /// card's clock in the middle of an update: the clock stands still while the thread that feeds
+  /// the card is preempted.
   static constexpr int kLastingJump = 5;
 
   static int64_t to_ns(GstClockTime t) {
@@ -134,7 +134,7 @@ class PlaybackSync {
     monotonic_ns_ = monotonic_ns;
     clock_ns_ = clock_ns;
   }
-  /// Fits the line through the last readings, by which rate and newest reading lose their jitter.
+  /// Fits the line through the last readings, which removes the jitter of rate and newest reading.
   void fit() {
     // Real clocks drift by tens of ppm; a larger slope is jitter over too short a time.
     constexpr double kMaxDrift = 0.01;
@@ -151,7 +151,7 @@ class PlaybackSync {
     const double rate = static_cast<double>(numerator) / static_cast<double>(denominator);
     if (!(std::fabs(rate - 1.0) < kMaxDrift)) return;
     rate_ = rate;
-    // Uses the value of the line at the newest reading instead of the reading itself.
+    // The line's value at the newest reading replaces the reading itself.
     const int64_t since_base_ns = monotonic_ns_ - static_cast<int64_t>(x_base);
     clock_ns_ = static_cast<int64_t>(base) +
                 static_cast<int64_t>(std::llround(static_cast<double>(since_base_ns) * rate));
@@ -178,18 +178,18 @@ class PlaybackSync {
   int64_t offset_ns_ = 0;
   int64_t skipped_ns_ = 0;
 
-  const GstClock* clock_ = nullptr;  ///< only compared: the readings are of this one
+  const GstClock* clock_ = nullptr;  ///< only compared: the readings are of this clock
   // Readings (monotonic, clock) as gst_calculate_linear_regression() takes them.
   std::array<GstClockTime, 2 * kWindow> xy_{};
   std::array<GstClockTime, 2 * kWindow> scratch_{};
-  size_t readings_ = 0;  ///< since reset(); the last kWindow are kept
-  int strays_ = 0;       ///< readings left out since the newest of them
+  size_t readings_ = 0;  ///< since reset(); the last kWindow are stored
+  int strays_ = 0;       ///< readings left out since the newest stored one
   // clock = clock_ns_ + (t − monotonic_ns_) · rate_
   int64_t monotonic_ns_ = 0;
   int64_t clock_ns_ = 0;
   double rate_ = 1.0;
 
-  // How far the clock has fallen behind half the speed that it should have.
+  // How far the clock has fallen behind half of its nominal speed.
   bool watched_ = false;
   int64_t watched_monotonic_ns_ = 0;
   int64_t watched_clock_ns_ = 0;

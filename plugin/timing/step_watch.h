@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Steps of the sink (GST_EVENT_STEP).
 #pragma once
 
 #include <functional>
@@ -13,9 +12,10 @@
 
 namespace spidar {
 
-/// A sink that steps over frames with a flush shows later frames that much earlier: it moves its
-/// own segment, and no element upstream is informed. The only sign of it is the message that the
-/// application gets (STEP_DONE), so this class listens to the pipeline's bus.
+/// Watches steps of the sink (GST_EVENT_STEP). A sink that steps over frames with a flush shows
+/// later frames that much earlier: it moves its own segment, and no element upstream is informed.
+/// The only sign is the message to the application (STEP_DONE), so this class listens to the
+/// pipeline's bus.
 class StepWatch {
  public:
   /// Calls `skipped` with the running time that a sink behind `element` has skipped, in the thread
@@ -23,7 +23,7 @@ class StepWatch {
   StepWatch(GstElement* element, std::function<void(GstClockTime)> skipped)
       : element_(element), skipped_(std::move(skipped)) {}
 
-  /// begin() and end(): in state changes of the element only.
+  /// Call begin() and end() only in state changes of the element.
   void begin() {
     bus_.reset(gst_element_get_bus(GST_ELEMENT(root_of(element_).get())));
     if (!bus_) return;

@@ -22,9 +22,9 @@ namespace spidar::tools {
 namespace {
 
 /// The paths of six funscripts for the six channels of a track, as players of several axes read
-/// them: "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others:
-/// those of the names that MultiFunPlayer and others look for (surge forwards, sway sideways, twist
-/// about the vertical, roll, pitch). The vertical force has the name of `main`.
+/// them: "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others,
+/// with the names that MultiFunPlayer and other players search (surge forwards, sway sideways,
+/// twist about the vertical, roll, pitch). The vertical force has the name of `main`.
 std::array<std::string, kTrackChannels> axis_scripts(const std::string& path, size_t main) {
   // By channel: fx, fy, fz, tx, ty, tz. The first axis of a player is the vertical one.
   constexpr const char* kNames[kTrackChannels] = {".sway",  "",       ".surge",
@@ -39,7 +39,6 @@ std::array<std::string, kTrackChannels> axis_scripts(const std::string& path, si
   return scripts;
 }
 
-/// All channels but `axis` that contain something.
 std::vector<std::string> other_channels(const tracks::Summary& summary, size_t axis) {
   std::vector<std::string> others;
   for (size_t i = 0; i < kTrackChannels; ++i) {
@@ -88,7 +87,7 @@ std::string lost_in(const std::string& path, const tracks::Summary& summary,
   return "";
 }
 
-/// The channel in which most happens, as a fraction of its full scale.
+/// The channel that changes most, as a fraction of its full scale.
 size_t liveliest_channel(const tracks::Summary& summary) {
   size_t most = kUsualAxis;
   for (size_t i = 0; i < kTrackChannels; ++i) {
@@ -104,7 +103,7 @@ size_t channel_of(const std::string& axis) {
   return kUsualAxis;
 }
 
-/// What is to be known of the channel of a funscript, as a line; empty: nothing.
+/// A remark on the channel of a funscript, as a line; empty: none.
 std::string about_axis(const tracks::Summary& summary, size_t axis, bool is_chosen) {
   const size_t liveliest = liveliest_channel(summary);
   const std::string name = tracks::channel_name(axis);
@@ -116,12 +115,12 @@ std::string about_axis(const tracks::Summary& summary, size_t axis, bool is_chos
   return is_chosen ? "" : "axis " + name + ", which has the most motion; --axis chooses another\n";
 }
 
-/// What TO is for is not a grip, and has a range of its own instead of newtons.
+/// Whether TO has a range of its own instead of newtons, for devices other than a grip.
 bool has_own_range(const std::string& to) {
   return ends_with(to, ".ahap") || ends_with(to, ".funscript");
 }
 
-/// So that `peak`, a fraction of the full scale, becomes 1; 1 when there is none.
+/// The gain that makes `peak`, a fraction of the full scale, 1; 1 when the peak is zero.
 double gain_that_fills(double peak) {
   return peak > 0 ? std::clamp(1 / peak, kMinGain, kMaxGain) : 1;
 }
@@ -149,8 +148,8 @@ void check_use(const ConvertOptions& options) {
   }
 }
 
-/// Six funscripts of a track. The forces have one gain and the torques another, so that their
-/// directions stay.
+/// Writes six funscripts of a track. The forces have one gain and the torques another, which keeps
+/// their directions.
 void write_axes(const ConvertOptions& options, const SampleFile& samples,
                 const tracks::Summary& summary) {
   const size_t main = liveliest_channel(summary);

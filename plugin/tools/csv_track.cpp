@@ -21,10 +21,10 @@ namespace {
 /// The time, and the channels of a track.
 constexpr size_t kColumns = 1 + kTrackChannels;
 constexpr const char* kColumnNames[kColumns] = {"time", "fx", "fy", "fz", "tx", "ty", "tz"};
-/// What a column may be measured in.
+/// The units of a column.
 struct Quantity {
-  double scale;                         ///< in which it is kept: ms, the full scale of a track
-  std::map<std::string, double> units;  ///< by their names
+  double scale;                         ///< of the stored value: ms, or the full scale of a track
+  std::map<std::string, double> units;  ///< by name
 };
 const Quantity kTime = {
     1e-3,
@@ -36,7 +36,7 @@ const Quantity kTorque = {kTrackTorqueScale_Nm,
 const Quantity& quantity_of(size_t column) {
   return column == 0 ? kTime : column <= kTrackChannels / 2 ? kForce : kTorque;
 }
-/// Times that were rounded to a microsecond may be as much before their sample.
+/// A time that was rounded to a microsecond may be as much before its sample.
 constexpr double kRounding_ms = 1e-3;
 /// No film is longer: a later time is one of the day, of a machine, or in another unit.
 constexpr double kLongest_ms = 24.0 * 3600 * 1000;
@@ -46,7 +46,7 @@ constexpr double kLargest = 1 / kMinGain;
 using Fields = std::vector<std::string>;
 using Places = std::array<std::optional<size_t>, kColumns>;
 
-/// None if the quotation marks in it are not those of RFC 4180.
+/// Returns nothing if the quotation marks are not those of RFC 4180.
 Fields split(const std::string& record, char separator) {
   Fields fields;
   csv_parser parser;
@@ -60,7 +60,7 @@ Fields split(const std::string& record, char separator) {
       csv_fini(&parser, take, nullptr, &fields) == 0;
   csv_free(&parser);
   if (!is_whole) fields.clear();
-  if (separator == ' ') {  // numbers that stand below each other
+  if (separator == ' ') {  // columns of numbers
     fields.erase(std::remove(fields.begin(), fields.end(), ""), fields.end());
   }
   return fields;
@@ -88,7 +88,6 @@ class CsvReader {
     throw std::runtime_error(path_ + ", line " + std::to_string(line_) + ": " + what);
   }
 
-  /// Adds a line to the record.
   bool add_line() {
     const auto line = lines_.next();
     line_ += line ? 1 : 0;
@@ -99,7 +98,7 @@ class CsvReader {
     return line.has_value();
   }
 
-  /// The next line with values or names; in names, lines may break.
+  /// Reads the next line with values or names; a name may contain line breaks.
   bool next_record() {
     for (record_.clear(); add_line(); record_.clear()) {
       const size_t begin = record_.find_first_not_of(" \t,;\"");
@@ -119,7 +118,7 @@ class CsvReader {
     return false;
   }
 
-  /// Finds out from the first line how the table is written. Returns whether this line has names.
+  /// Learns from the first line how the table is written. Returns whether this line has names.
   bool learn() {
     for (const char separator : separators_) {
       separator_ = separator;
@@ -172,7 +171,7 @@ class CsvReader {
     if (unit.empty()) return 1;
     std::string known;
     for (const auto& [name, size] : quantity_of(column).units) {
-      // As in FX_N and TZ_NM, but MN are no mN.
+      // As in FX_N and TZ_NM; but MN is not mN.
       const bool is_mega = column > 0 && unit[0] == 'M';
       if (g_ascii_strcasecmp(name.c_str(), unit.c_str()) == 0 && !is_mega) return size;
       known += (known.empty() ? "" : ", ") + name;
@@ -233,7 +232,7 @@ class CsvReader {
   std::string separators_ = "\t;, ";
   char separator_ = '\0';
   char decimal_mark_ = '\0';
-  size_t width_ = 0;  ///< of a row; 0: it is not known yet
+  size_t width_ = 0;  ///< of a row; 0: unknown
   Places at_;
   std::array<double, kColumns> factors_{};
   // The last row, in ms and fractions of the full scale.

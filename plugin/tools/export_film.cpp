@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As both are named, without following links: a browser does not follow them either.
+/// Takes both names without following links, because a browser does not follow them either.
 std::string relative_url(const fs::path& film, const fs::path& page) {
   const fs::path folder = fs::absolute(page).lexically_normal().parent_path();
   const fs::path path = fs::absolute(film).lexically_normal().lexically_relative(folder);
@@ -39,7 +39,7 @@ std::string relative_url(const fs::path& film, const fs::path& page) {
 
 constexpr const char* kMaker = "spidartrack export";
 
-/// As players find them: film.srt or film.en.srt for film.mp4.
+/// Searches as players do: film.srt or film.en.srt for film.mp4.
 bool has_subtitles_beside(const fs::path& film) {
   const std::string begin = film.stem().string() + ".";
   std::error_code none;
@@ -53,7 +53,7 @@ bool has_subtitles_beside(const fs::path& film) {
   return false;
 }
 
-/// The bytes of a file, some at a time, from its beginning.
+/// Gives the bytes of a file in pieces, from its beginning.
 void read_file(const std::string& path, size_t at_once,
                const std::function<void(const std::string&)>& take) {
   FileBytes file(path);
@@ -65,8 +65,8 @@ void read_file(const std::string& path, size_t at_once,
   }
 }
 
-/// In a page: base64 takes a third more, and neither Chromium's longest string (2^29 - 24
-/// characters) nor the memory of telephones holds much more.
+/// The largest film in a page: base64 takes a third more, and neither Chromium's longest string
+/// (2^29 - 24 characters) nor the memory of telephones holds much more.
 constexpr uint64_t kMaxEmbedded_bytes = uint64_t{1} << 28;
 
 void expect_embeddable(const std::string& name, const std::string& file) {
@@ -79,10 +79,9 @@ void expect_embeddable(const std::string& name, const std::string& file) {
                            " MB with --embed; export it to a folder, FOLDER/");
 }
 
-/// What an exported film consists of.
 class ExportedFilm {
  public:
-  /// `folder`: that which the film goes into, with the page; else empty.
+  /// `folder` receives the film and the page; else empty.
   ExportedFilm(const ExportOptions& options, const fs::path& page, const fs::path& folder)
       : film_(options.film) {
     const bool is_recorded = options.properties || (options.track.empty() && !has_track(film_));
@@ -102,7 +101,7 @@ class ExportedFilm {
     place_arrow();
   }
 
-  /// A page that plays the film from where it is.
+  /// Writes a page that plays the film from its place.
   void write_page(PartFile& page) {
     const std::string html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
     page.write(html);
@@ -117,7 +116,7 @@ class ExportedFilm {
     tell(page.target(), html, unplayed);
   }
 
-  /// A page that has the film in it.
+  /// Writes a page that contains the film.
   void write_all_in_one(PartFile& page) {
     std::unique_ptr<PartFile> converted;
     std::string missing;
@@ -131,14 +130,14 @@ class ExportedFilm {
     constexpr const char* kTrack = "<script type=\"application/json\" id=\"track\">";
     const size_t at = html.find(kTrack);
     page.write(html.substr(0, at) + "<script type=\"text/plain\" id=\"bytes\">");
-    constexpr size_t kAtOnce = 3 << 20;  // a multiple of 3, so that no padding comes in between
+    constexpr size_t kAtOnce = 3 << 20;  // a multiple of 3 avoids padding between the pieces
     read_file(path, kAtOnce, [&page](const std::string& bytes) { page.write(base64(bytes)); });
     page.write("</script>\n" + html.substr(at));
     publish(page);
     tell(page.target(), html, "; with the film in it" + missing);
   }
 
-  /// A folder of the page and the film, which need nothing else.
+  /// Writes a folder with the page and the film, which needs nothing else.
   void write_folder(PartFile& page) {
     PartFile& film = *copy_;
     std::string missing;
@@ -163,7 +162,7 @@ class ExportedFilm {
     copy_ = std::make_unique<PartFile>(folder / name, PartFile::Replaces{force, kMaker, false});
   }
 
-  /// `track`: its file; empty if the film has it.
+  /// `track` is the file of the track; empty if the film contains it.
   void read_forces(const std::string& track) {
     condition_ = read_track(
         film_, [this](const TrackSample& sample) { page_.add(sample); }, {}, track);
@@ -192,7 +191,7 @@ class ExportedFilm {
     };
   }
 
-  /// On what is felt, if the track tells how it was measured.
+  /// Places the arrow on the felt object, if the track tells how it was measured.
   void place_arrow() {
     const auto tell = next_part();
     if (!condition_.notes.settings) return;
@@ -205,7 +204,7 @@ class ExportedFilm {
     }
   }
 
-  /// `file` is that which the page plays, and `unplayed` why some browser does not.
+  /// `file` is what the page plays, and `unplayed` why some browser does not.
   std::string html(const std::string& url, const std::string& file, double more_s,
                    const std::string& unplayed) {
     return page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
@@ -224,14 +223,14 @@ class ExportedFilm {
     }
   }
 
-  /// By how much the pictures of a copy come later than those of the film.
+  /// How much later the pictures of a copy come than those of the film.
   double later_s(const std::string& copy) const {
     if (unplayed_.empty()) return 0;
     return 1e-9 * static_cast<double>(read_film(copy).begin_ns - read_film(film_).begin_ns);
   }
 
   void tell(const std::string& to, const std::string& html, const std::string& more) {
-    report_ = nullptr;  // its line is erased
+    report_ = nullptr;  // this erases its line
     const char* const lost =
         has_subtitles_ ? "; without its subtitles, which browsers do not show" : "";
     std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s%s\n", film_.c_str(), to.c_str(),
@@ -244,13 +243,13 @@ class ExportedFilm {
   std::unique_ptr<RecordReport> report_ =
       std::make_unique<RecordReport>(std::vector<std::string>{film_});
   int parts_of_work_ = 1, parts_done_ = 0;
-  std::string said_;  ///< of what was recorded
+  std::string said_;  ///< about the recording
   FilmPage page_;
-  double tolerance_N_ = 0;  ///< of the force that the page shows
+  double tolerance_N_ = 0;  ///< of the shown force
   TrackCondition condition_;
   bool has_subtitles_ = false;
-  std::string unplayed_;       ///< why browsers do not play it
-  std::string in_the_middle_;  ///< why it is not known where the felt object is
+  std::string unplayed_;       ///< why browsers do not play the film
+  std::string in_the_middle_;  ///< why the place of the felt object is unknown
 };
 
 }  // namespace

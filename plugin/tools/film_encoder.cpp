@@ -21,8 +21,9 @@
 namespace spidar::tools {
 namespace {
 
-/// Of constant quality, with which pictures of any size look alike: H.264 of a quantizer between 20
-/// and 26 hardly differs from its source. The fastest settings that still do.
+/// Encoders of constant quality, with which pictures of any size look alike: H.264 with a quantizer
+/// between 20 and 26 hardly differs from its source. These are the fastest settings that achieve
+/// that.
 constexpr Encoder kVideo[] = {
     {"x264enc", "x264enc speed-preset=veryfast pass=qual quantizer=22"},
     {"openh264enc", "openh264enc name=encoder rate-control=off complexity=low ! h264parse"},
@@ -30,7 +31,7 @@ constexpr Encoder kVideo[] = {
 constexpr const char* kNoVideo =
     "GStreamer has no encoder of H.264: install gstreamer1.0-plugins-ugly (x264enc)";
 
-/// Elements from raw pictures to the file, with a muxer "mux".
+/// Returns the elements from raw pictures to the file, with a muxer "mux".
 std::string to_file(const PartFile& part) {
   const char* const encoder = first_installed(kVideo);
   if (!encoder) throw std::runtime_error(kNoVideo);
@@ -42,9 +43,9 @@ std::string to_file(const PartFile& part) {
          " name=mux ! fdsink sync=false fd=" + std::to_string(part.descriptor());
 }
 
-/// Some decoders give two frames the same time, as that of MPEG-4 in AVI does with the frames that
-/// are stored in another order; MP4 does not allow that. The later one follows when the other one
-/// ends. A probe for buffers, whose user data is the time of the last frame.
+/// A probe for buffers that delays a frame with the time of the last frame, which is the user data,
+/// to the end of that frame. Some decoders give two frames the same time, such as that of MPEG-4 in
+/// AVI for frames that are stored in another order; MP4 does not allow that.
 GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   GstClockTime& last = *static_cast<GstClockTime*>(user);
   auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
@@ -58,8 +59,8 @@ GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   return GST_PAD_PROBE_OK;
 }
 
-/// OpenH264 prints "Error: cmInitParaError" when GStreamer asks for its last pictures, although
-/// nothing is wrong: as long as that takes, the standard error is discarded. Outlives the pipeline.
+/// Discards the standard error while GStreamer requests the last pictures of OpenH264, which then
+/// prints "Error: cmInitParaError" although nothing is wrong. Outlives the pipeline.
 class QuietEnd {
  public:
   QuietEnd() = default;
@@ -99,7 +100,8 @@ class QuietEnd {
   int errors_ = -1;  ///< the standard error while it is discarded, else −1
 };
 
-/// Pictures and sound that all browsers decode, in MP4 and in WebM. Of H.264 with 8 bits and 4:2:0.
+/// Pictures and sound that all browsers decode, in MP4 and in WebM: H.264 only with 8 bits and
+/// 4:2:0.
 constexpr const char* kPlayed =
     "video/x-h264,profile=(string){constrained-baseline,baseline,main,high,constrained-high,"
     "progressive-high}; "
@@ -147,9 +149,9 @@ bool is_webm(const std::string& film) {
 std::string why_no_browser(const std::string& film) {
   const bool in_webm = is_webm(film);
   if (!in_webm && !is_mp4(film)) return "it is neither MP4 nor WebM";
-  // Subtitles may come late, and are not looked at.
+  // Subtitles may come late, and do not matter here.
   constexpr GstClockTime kLongest = 2 * GST_SECOND;
-  std::mutex mutex;  // outlive the pipeline
+  std::mutex mutex;  // must outlive the pipeline
   std::string error;
   int known = 0;
   FilePipeline file("filesrc name=source ! parsebin name=parse", film);
@@ -164,7 +166,7 @@ std::string why_no_browser(const std::string& film) {
     }
     return nullptr;
   });
-  // Streams that are added one by one may be more than those that are known.
+  // A demuxer that adds its streams one by one may add more after this message.
   while (file.play_until(GST_MESSAGE_APPLICATION, kLongest) == GST_MESSAGE_APPLICATION) {
     const std::lock_guard<std::mutex> lock(mutex);
     if (!error.empty()) break;
@@ -180,7 +182,7 @@ EncodedFilm encode_film(const std::string& film, const std::string& elements, co
   FilmWatch watch;
   KeptStreams others;
   QuietEnd quiet;
-  GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // outlives the pipeline
+  GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // must outlive the pipeline
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
       "videoflip name=flip video-direction=auto ! " +

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Writes films as H.264, and as browsers play them.
 #pragma once
 
 #include <functional>
@@ -11,30 +10,30 @@
 
 namespace spidar::tools {
 
-/// What is to be said of a film that was written anew.
+/// Remarks on a film that was encoded anew.
 struct EncodedFilm {
-  std::string felt, remark;  ///< see FilmWatch, where the film passes a spidarmotion
+  std::string felt, remark;  ///< see FilmWatch, if the film passes a spidarmotion
   std::string missing;       ///< see KeptStreams
 };
 
-/// Plays `film` through `elements`, from raw pictures that are upright to raw pictures, each with a
-/// "!" behind it, and writes these as H.264 into `part`, whose name will end in .mp4 or .mkv, with
+/// Plays `film` through `elements`, from upright raw pictures to raw pictures, each with a "!"
+/// behind it, and writes the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with
 /// the sound and the subtitles of the film. The element `last`, or the turning "flip" before all,
-/// gets `properties`, and is where `tell`, which is that of FilmProgress, counts. Throws
+/// gets `properties`; there, `tell`, which is that of FilmProgress, counts frames. Throws
 /// std::runtime_error; it names the package to install when GStreamer has no encoder of H.264.
 EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
                         const RecordProperties& properties, const PartFile& part,
                         const std::function<void(int percent)>& tell);
 
-/// Why some browser does not play the film, as the end of a sentence: "its picture is
+/// Returns why some browser does not play the film, as the end of a sentence: "its picture is
 /// video/x-h265". Empty when all do: H.264 in MP4, VP8 or VP9 in WebM, with AAC, MP3, Opus or
-/// Vorbis. Throws std::runtime_error when it cannot be read.
+/// Vorbis. Throws std::runtime_error when the film cannot be read.
 std::string why_no_browser(const std::string& film);
 
-/// Ends that sentence for what most browsers play.
+/// The end of that sentence for formats that most browsers play.
 constexpr const char* kNotEveryBrowser = ", which not every iPhone or Mac (Safari) plays";
 
-/// Whether `film` is in the container of WebM; any other that browsers play is in MP4.
+/// Whether `film` is in the container of WebM; browsers play other films in MP4.
 bool is_webm(const std::string& film);
 
 }  // namespace spidar::tools

@@ -22,7 +22,7 @@
 namespace spidar::tools {
 namespace {
 
-/// Upright, as a browser shows it.
+/// Upright, as a browser shows the film.
 constexpr const char* kMeasuredFilm =
     "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
     "videoflip video-direction=auto ! spidarmotion name=motion device=none attach-meta=true ! "
@@ -52,7 +52,7 @@ GstPadProbeReturn measured(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
                                      const std::function<void(int percent)>& tell) {
   const RecordProperties properties = properties_of(settings);
-  std::vector<FeltBox> boxes;  // outlive the pipeline
+  std::vector<FeltBox> boxes;  // must outlive the pipeline
   FilmProgress progress(tell);
   FilmWatch watch;
   const FilePipeline file(kMeasuredFilm, film, nullptr, kSlowShare);
@@ -68,9 +68,9 @@ std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string&
 
 namespace {
 
-constexpr int kZero = 128, kSteps = 127;  // of a byte that is a value
+constexpr int kZero = 128, kSteps = 127;  // of a value in a byte
 
-/// See curveOf() of the page.
+/// Encodes a curve for curveOf() of the page.
 std::string curve_text(const std::vector<float>& values, double tolerance, double most) {
   std::string bytes;
   size_t before = 0;
@@ -92,7 +92,7 @@ std::string curve_text(const std::vector<float>& values, double tolerance, doubl
   return base64(bytes);
 }
 
-/// As the content of a script element, which only "<" could end.
+/// Returns JSON as the content of a script element, which only "<" could end.
 std::string script_json(const Json& value) {
   std::string text;
   for (const char c : json_text(value)) text += c == '<' ? "\\u003c" : std::string(1, c);
@@ -121,7 +121,7 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
   for (size_t step = 0; kBoxStep_samples * step < force_N_[0].size(); ++step) {
     const double now_ns = kStep_ns * static_cast<double>(step);
     while (next != boxes.end() && static_cast<double>(next->stream_ns) <= now_ns) ++next;
-    FeltBox box;  // between two frames
+    FeltBox box;  // interpolated between two frames
     if (next != boxes.begin()) box = *std::prev(next);
     if (box.is_known() && next != boxes.end() && next->is_known()) {
       const double share = (now_ns - static_cast<double>(box.stream_ns)) /
@@ -139,9 +139,9 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
 std::string FilmPage::html(const std::string& url, const std::string& name, const std::string& type,
                            double later_s, const std::string& unplayed, double& tolerance_N) const {
   constexpr double kCoarser = 1.25;
-  // Of a picture from -1 to 1: half a per cent of it, as wide as the line that is drawn.
+  // In a picture from -1 to 1: half a per cent of the picture, the width of the drawn line.
   double edges_off = 2 * 0.005;
-  constexpr double kMaxOff = 2 * 0.1;  // another place, to the eye
+  constexpr double kMaxOff = 2 * 0.1;  // beyond that, the eye sees another place
   const std::string page = kFilmPage, place = "@TRACK@";
   const size_t at = page.find(place);
   const double most_N = std::max(largest_N_, kFeltForce_N);
@@ -155,14 +155,14 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
                 {"box_step_s", static_cast<double>(kBoxStep_samples) / kTrackRate_Hz},
                 {"is_felt", largest_N_ >= kFeltForce_N}};
   std::string html;
-  // As exact as a hand can feel, or as there is room for in a long film.
+  // The precision begins at what a hand can feel, and becomes coarser until a long film fits.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
     track["force"] = Json::array();
     for (const std::vector<float>& force_N : force_N_) {
       track["force"].push_back(curve_text(force_N, lines_N, most_N));
     }
     track["box"] = Json::array();
-    // Two edges that are off by so much each, and rounded, are a box no longer.
+    // A box shows nothing when it is smaller than the errors and the rounding of two edges.
     track["least"] = edges_off + 0.5 / kSteps;
     for (const std::vector<float>& edge : edges_) {
       if (edges_off < kMaxOff) track["box"].push_back(curve_text(edge, edges_off, 1));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A page for browsers that plays a film with its force, which begins on the felt object.
 #pragma once
 
 #include <array>
@@ -17,26 +16,24 @@ namespace spidar::tools {
 /// The box of the felt object in one frame.
 struct FeltBox {
   int64_t stream_ns = 0;
-  /// Left, top, right and bottom, as fractions of the picture as it is shown; all 0 where none is
-  /// known.
+  /// Left, top, right and bottom, as fractions of the shown picture; all 0 if unknown.
   std::array<double, 4> edges{};
 
   bool is_known() const { return edges[2] > edges[0]; }
 };
 
 /// Finds the box in each frame as spidarmotion measures it with `settings`, see RecordProperties.
-/// Throws std::runtime_error, without the name of the film, when it cannot be played to its end, or
-/// the settings are not those of a track. `tell` is that of FilmProgress.
+/// Throws std::runtime_error, without the name of the film, when the film cannot be played to its
+/// end, or the settings are not those of a track. `tell` is that of FilmProgress.
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
                                      const std::function<void(int percent)>& tell);
 
-/// As a page has bytes in it.
 std::string base64(const std::string& bytes);
 
 class FilmPage {
  public:
-  /// The curves of a page are made coarser until it is smaller than this, which mail and chat let
-  /// pass.
+  /// The curves of a page become coarser until the page is smaller than this, which mail and chat
+  /// accept.
   static constexpr size_t kMax_bytes = 100'000;
 
   /// Adds the next millisecond of the track. Values that are not finite count as 0.
@@ -46,10 +43,11 @@ class FilmPage {
   /// Without them, the arrow begins in the middle of the picture.
   void set_boxes(const std::vector<FeltBox>& boxes);
 
-  /// `url` is the address of the film, relative to the page, `name` its name for people, `type` its
-  /// MIME type. The film shows its pictures `later_s` seconds later than the track says. `unplayed`
-  /// is why some browser does not play it, as why_no_browser() says. `tolerance_N` becomes the most
-  /// by which the shown force differs from the track's along an axis.
+  /// Returns a page for browsers that plays a film with its force. `url` is the address of the
+  /// film, relative to the page, `name` its name for people, `type` its MIME type. The film shows
+  /// its pictures `later_s` seconds later than the track says. `unplayed` is why_no_browser().
+  /// `tolerance_N` becomes the largest difference between the shown force and the track's along an
+  /// axis.
   std::string html(const std::string& url, const std::string& name, const std::string& type,
                    double later_s, const std::string& unplayed, double& tolerance_N) const;
 

@@ -19,7 +19,8 @@ namespace {
 constexpr auto kFlow =
     static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
 
-/// "H.265 (Main Profile) decoder", if that is what is missing, and it is for pictures.
+/// Returns "H.265 (Main Profile) decoder", if the message says that this decoder for pictures is
+/// missing.
 std::string missing_decoder(const GstStructure* message) {
   const GstCaps* caps = nullptr;
   const GValue* const detail = gst_structure_get_value(message, "detail");
@@ -38,7 +39,7 @@ void FilmWatch::begin(GstElement* pipeline, const std::string& film) {
   videos_.watch(decoder.get());
   g_signal_connect(decoder.get(), "no-more-pads", G_CALLBACK(choose), this);
   convert_ = gst_bin_get_by_name(GST_BIN(pipeline), "convert");
-  gst_object_unref(convert_);  // the pipeline has it
+  gst_object_unref(convert_);  // the pipeline owns it
 }
 
 GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
@@ -57,13 +58,13 @@ GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_WARNING && !self.failed_) {
     g_autoptr(GError) warning = nullptr;
     gst_message_parse_warning(message, &warning, nullptr);
-    // Players play what spidarmotion warns of: two frames of the same time, for example.
+    // Players play films of which spidarmotion warns: two frames of the same time, for example.
     const bool is_remark =
         g_strcmp0(G_OBJECT_TYPE_NAME(GST_MESSAGE_SRC(message)), "GstSpidarMotion") == 0;
     std::string& kept = is_remark ? self.remark_ : self.warning_;
     const bool is_appended =
         self.has_appended_ && g_error_matches(warning, GST_STREAM_ERROR, GST_STREAM_ERROR_DEMUX);
-    // Of spidarextract, which gets no data of frames that spidarmotion has not measured.
+    // spidarextract warns that it gets no data of frames that spidarmotion has not measured.
     if (!is_remark && g_error_matches(warning, GST_RESOURCE_ERROR, GST_RESOURCE_ERROR_SETTINGS)) {
       self.unmeasured_ = true;
     } else if (kept.empty() && !is_appended) {
@@ -77,7 +78,7 @@ GstBusSyncReply FilmWatch::handle(GstBus*, GstMessage* message, gpointer user) {
 
 GstPadProbeReturn FilmWatch::decoded(GstPad*, GstPadProbeInfo* info, gpointer user) {
   if (info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) {
-    // matroskademux sends gaps while the sound goes on after the pictures; they overtake the last
+    // matroskademux sends gaps while the sound continues after the pictures; they overtake the last
     // frames, which are still in the decoder.
     const bool is_gap = GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) == GST_EVENT_GAP;
     return is_gap ? GST_PAD_PROBE_DROP : GST_PAD_PROBE_OK;
@@ -88,7 +89,7 @@ GstPadProbeReturn FilmWatch::decoded(GstPad*, GstPadProbeInfo* info, gpointer us
   return GST_PAD_PROBE_OK;
 }
 
-/// All streams are known.
+/// This signal means that all streams are known.
 void FilmWatch::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const Ref<GstPad> into(gst_element_get_static_pad(self.convert_, "sink"));
@@ -123,7 +124,8 @@ std::string FilmWatch::why_ended(const std::string& error) const {
     return missing_.empty() ? "there is no video in it" + why_no_video_
                             : "its video cannot be decoded: install a " + missing_;
   }
-  // What an element warned of comes before what follows from it: "Internal data stream error".
+  // The warning of an element explains the error that follows from it: "Internal data stream
+  // error".
   if (!warning_.empty()) return warning_;
   if (unmeasured_) {
     const bool is_time = remark_.find("timestamp") != std::string::npos;
@@ -171,7 +173,7 @@ GstPadProbeReturn FilmProgress::passes(GstPad* frames, GstPadProbeInfo* info, gp
   auto& self = *static_cast<FilmProgress*>(user);
   if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
   if (self.film_ns_ <= 0) {
-    self.film_ns_ = -1;  // the container does not state it
+    self.film_ns_ = -1;  // the container does not state the duration
     return GST_PAD_PROBE_REMOVE;
   }
   const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Follows a film through a pipeline that reads it as fast as it can: chooses its video, notices
-/// when it is damaged, and says how far it is.
 #pragma once
 
 #include <array>
@@ -47,8 +45,9 @@ class FilmProgress {
   int told_ = 0;
 };
 
-/// GStreamer ends a film that is cut off like one that is whole, and what it warns of is for the
-/// application to judge. Outlives the pipeline.
+/// Follows a film through a pipeline that reads as fast as it can: chooses the video, and notices
+/// damage. GStreamer ends a truncated film like a whole one, and leaves it to the application to
+/// judge its warnings. Outlives the pipeline.
 class FilmWatch {
  public:
   FilmWatch() = default;
@@ -59,11 +58,11 @@ class FilmWatch {
   /// "convert".
   void begin(GstElement* pipeline, const std::string& film);
 
-  /// Plays the film to its end. Throws std::runtime_error with what is wrong with it.
+  /// Plays the film to its end. Throws std::runtime_error with what is wrong with the film.
   void play(const FilePipeline& file) const;
-  /// After the pipeline has ended, with `error` or, if that is empty, at the end of the film: a
-  /// sentence that says what is wrong with the film, or an empty string. A film of fewer than two
-  /// frames is wrong, too.
+  /// After the pipeline has ended, with `error` or, if that is empty, at the end of the film:
+  /// returns a sentence that says what is wrong with the film, or an empty string. A film of fewer
+  /// than two frames is wrong, too.
   std::string why_ended(const std::string& error) const;
   /// A remark on the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
@@ -79,16 +78,16 @@ class FilmWatch {
   VideoChoice videos_{VideoChoice::Rule::kFirst};
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;        ///< with an error; warnings after it follow from it
+  bool failed_ = false;        ///< with an error, from which later warnings follow
   std::string warning_;        ///< the first one
   std::string remark_;         ///< the first warning of spidarmotion
-  bool has_appended_ = false;  ///< demuxers warn that they cannot parse what is behind the film
-  bool unmeasured_ = false;    ///< frames in a row; the remark says why
-  std::string missing_;        ///< the decoder of the video that is not installed
+  bool has_appended_ = false;  ///< demuxers warn that they cannot parse data behind the film
+  bool unmeasured_ = false;    ///< several frames in a row; the remark says why
+  std::string missing_;        ///< the missing decoder of the video
   bool has_video_ = true;      ///< unknown until chosen
   std::string why_no_video_;
   uint64_t frames_ = 0;
-  std::array<int, kNoForceReasons> frames_by_reason_{};  ///< that were measured
+  std::array<int, kNoForceReasons> frames_by_reason_{};  ///< of measured frames
 };
 
 }  // namespace spidar::tools

@@ -19,7 +19,7 @@ constexpr const char* kNoSound =
     "its sound is left out: GStreamer has no encoder of AAC; install gstreamer1.0-libav "
     "(avenc_aac)";
 
-/// Sound that containers take as it is in the film.
+/// Sound that containers take without encoding.
 constexpr const char* kCopied =
     "audio/mpeg,mpegversion=(int)4,stream-format=(string)raw,framed=(boolean)true; "
     "audio/mpeg,mpegversion=(int)1,layer=(int)3,parsed=(boolean)true";
@@ -30,14 +30,14 @@ std::string format_of(const GstCaps* caps) {
   return gst_structure_get_name(gst_caps_get_structure(caps, 0));
 }
 
-/// Whether it is text that may have Pango's marks.
+/// Whether the text may have Pango's marks.
 bool is_marked(GstCaps* caps) {
   const Ref<GstCaps> plain(gst_caps_from_string(kPlainText));
   return format_of(caps) == "text/x-raw" && !gst_caps_is_subset(caps, plain.get());
 }
 
-/// Without the marks of Pango, as `<i>` and `&amp;`. Not by a parser: of Matroska, GStreamer passes
-/// a text on as it is, with "<i>" and with a plain "&".
+/// Removes Pango's marks, such as `<i>` and `&amp;`. A parser does not serve: GStreamer passes a
+/// text of Matroska on unchanged, with "<i>" and with a plain "&".
 std::string without_marks(const std::string& marked) {
   static const std::regex mark("</?[A-Za-z][^<>]*>");
   std::string plain = std::regex_replace(marked, mark, "");
@@ -52,14 +52,14 @@ std::string without_marks(const std::string& marked) {
   return plain;
 }
 
-/// Marked text in which each ampersand begins a name, or is written as one. Matroska's demuxer says
-/// of any text that it has Pango's marks, and Pango refuses others.
+/// Writes each ampersand that begins no name as one. Matroska's demuxer says of any text that it
+/// has Pango's marks, and Pango refuses a plain ampersand.
 std::string with_names(const std::string& marked) {
   static const std::regex kAlone("&(?!(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);)");
   return std::regex_replace(marked, kAlone, "&amp;");
 }
 
-/// A probe for subtitles, whose text it replaces by what `kChange` makes of it.
+/// A probe for subtitles, which replaces their text by the result of `kChange`.
 template <std::string (*kChange)(const std::string&)>
 GstPadProbeReturn replace_text(GstPad*, GstPadProbeInfo* info, gpointer) {
   GstBuffer* const old = GST_PAD_PROBE_INFO_BUFFER(info);
@@ -67,7 +67,7 @@ GstPadProbeReturn replace_text(GstPad*, GstPadProbeInfo* info, gpointer) {
   if (!gst_buffer_map(old, &map, GST_MAP_READ)) return GST_PAD_PROBE_OK;
   std::string text(reinterpret_cast<const char*>(map.data), map.size);
   gst_buffer_unmap(old, &map);
-  text = kChange(text.c_str());  // some end with a zero
+  text = kChange(text.c_str());  // some texts end with a zero
   GstBuffer* const changed = gst_buffer_new_memdup(text.data(), text.size());
   constexpr auto kRest =
       static_cast<GstBufferCopyFlags>(GST_BUFFER_COPY_FLAGS | GST_BUFFER_COPY_TIMESTAMPS);
@@ -105,7 +105,7 @@ void KeptStreams::hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer use
             " left out: GStreamer has no decoder of " + format_of(caps));
 }
 
-/// All streams are known, and none of them flows yet.
+/// This signal means that all streams are known, and none of them flows yet.
 void KeptStreams::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<KeptStreams*>(user);
   const Ref<GstElement> overlay(gst_bin_get_by_name(GST_BIN(self.pipeline_), "subtitles"));
@@ -152,7 +152,7 @@ void KeptStreams::keep_subtitles(GstPad* subtitles) {
 }
 
 void KeptStreams::lead_to_muxer(GstPad* stream, const char* elements, const char* into) {
-  // Holds what is heard while the encoder of the pictures looks ahead.
+  // The queue holds the sound while the encoder of the pictures looks ahead.
   const std::string line =
       std::string("queue max-size-time=0 max-size-buffers=0 ! ") + elements + " ! identity";
   GstElement* const branch = gst_parse_bin_from_description(line.c_str(), TRUE, nullptr);

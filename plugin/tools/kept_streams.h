@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a film that is written anew keeps besides its pictures.
 #pragma once
 
 #include <string>
@@ -11,13 +10,13 @@
 
 namespace spidar::tools {
 
-/// One of those of which not all are installed.
+/// An encoder that may not be installed.
 struct Encoder {
   const char* element;
-  const char* line;  ///< of elements, for gst_parse_launch()
+  const char* line;  ///< elements for gst_parse_launch()
 };
 
-/// The line of the first one that is installed; null when none is.
+/// The line of the first encoder that is installed; null when none is.
 template <size_t kCount>
 const char* first_installed(const Encoder (&encoders)[kCount]) {
   for (const Encoder& encoder : encoders) {
@@ -27,9 +26,9 @@ const char* first_installed(const Encoder (&encoders)[kCount]) {
   return nullptr;
 }
 
-/// Keeps every sound and all subtitles of a film that is decoded. AAC and MP3 are copied, other
-/// sound becomes AAC; subtitles that are text stay text, without what is bold or coloured. Outlives
-/// the pipeline.
+/// Keeps every sound and all subtitles of a film that is encoded anew. AAC and MP3 are copied,
+/// other sound becomes AAC; text subtitles stay text, without bold and colours. Outlives the
+/// pipeline.
 class KeptStreams {
  public:
   KeptStreams() = default;
@@ -40,7 +39,7 @@ class KeptStreams {
   /// subtitleoverlay "subtitles", that draws the first subtitles, and no others are kept.
   void begin(GstElement* pipeline);
 
-  /// After the end: what of the film is missing, and why, as sentences; empty if nothing is.
+  /// After the end: what is missing, and why, as sentences; empty if nothing is.
   const std::string& missing() const { return missing_; }
 
  private:

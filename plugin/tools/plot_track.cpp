@@ -35,7 +35,7 @@ constexpr int kWidth = 1400, kHeight = 700, kGap = 14;
 constexpr size_t kBins = 4000;
 
 /// The lowest and the highest value of each bin, as two rows: time, force, torque. A short peak is
-/// seen however long the track is.
+/// visible in a track of any length.
 class BinWriter {
  public:
   BinWriter(std::ostream& script, size_t samples)
@@ -67,7 +67,7 @@ class BinWriter {
   std::array<double, kTrackChannels> low_{}, high_{};
 };
 
-/// Puts a plot between two heights of the picture, in pixels from its top.
+/// Places a plot between two heights of the picture, in pixels from its top.
 void place(std::ostream& script, int top, int bottom) {
   script << "set tmargin at screen " << 1 - static_cast<double>(top) / kHeight
          << "\nset bmargin at screen " << 1 - static_cast<double>(bottom) / kHeight << '\n';
@@ -94,7 +94,7 @@ int plot_track(const std::string& track, const std::string& png, bool force) {
   script << "END\n";
   script << "set multiplot\n";
   place(script, kGap, kHeight / 2 - 2 * kGap);
-  // A range that is not empty if nothing is felt.
+  // The range is not empty even if nothing is felt.
   script << "set yrange [*<-0.1 : 0.1<*]\nset ylabel 'force, N'\n"
             "plot $samples using 1:2 title 'x, right', '' using 1:3 title 'y, up', "
             "'' using 1:4 title 'z, towards the viewer'\n";

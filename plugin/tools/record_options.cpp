@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Of words that no shell changes.
+/// Characters that no shell changes.
 constexpr const char* kPlainLetters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./";
 
-/// The properties that are marked with analysis_mark(), in the order of the alphabet.
+/// The properties that are marked with analysis_mark(), in alphabetical order.
 std::vector<std::string> names_of_analysis(GstElement* element) {
   guint count = 0;
   g_autofree GParamSpec** all = g_object_class_list_properties(G_OBJECT_GET_CLASS(element), &count);
@@ -37,7 +37,7 @@ std::vector<std::string> names_of_analysis(GstElement* element) {
   return names;
 }
 
-/// Why it is refused, as the rest of a sentence; empty if it is not.
+/// Returns why the property is refused, as the rest of a sentence; empty if it is not.
 std::string why_refused(const TypedProperty& property, const std::vector<std::string>& of_analysis,
                         size_t films) {
   const std::string name = property.name();
@@ -63,9 +63,8 @@ std::string why_refused(const TypedProperty& property, const std::vector<std::st
   return "changes nothing in a track; these properties do: " + list;
 }
 
-/// With the properties of a preset, as it sets them after those before it, in place of its name.
-/// What they are checked for, parse_record_properties() does. Throws UsageError for an unknown
-/// preset.
+/// Replaces the name of a preset by its properties, as the preset sets them after those before it.
+/// parse_record_properties() checks them. Throws UsageError for an unknown preset.
 std::vector<std::string> without_presets(GstElement* element,
                                          const std::vector<std::string>& of_analysis,
                                          const std::vector<std::string>& words) {
@@ -79,7 +78,7 @@ std::vector<std::string> without_presets(GstElement* element,
     load_preset(element, *preset);
     for (const std::string& name : of_analysis) {
       if (name == "feel" || name == "pointer" || name == "max-force") {
-        continue;  // no preset has them
+        continue;  // no preset has these
       }
       g_auto(GValue) value = G_VALUE_INIT;
       g_object_get_property(G_OBJECT(element), name.c_str(), &value);
@@ -89,7 +88,7 @@ std::vector<std::string> without_presets(GstElement* element,
   return result;
 }
 
-/// One line of settings; a value with spaces is in quotes.
+/// Splits one line of settings; a value with spaces is in quotes.
 std::map<std::string, std::string> split(const std::string& line) {
   std::map<std::string, std::string> settings;
   bool quoted = false;
@@ -164,7 +163,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
         "GStreamer finds no spidarmotion; set GST_PLUGIN_PATH to the folder of libgstspidar.so");
   }
   const std::vector<std::string> of_analysis = names_of_analysis(element.get());
-  std::map<std::string, std::string> settings;  // the last one of a name counts
+  std::map<std::string, std::string> settings;  // the last value of a name counts
   std::string alpha;
   try {
     for (const std::string& word : without_presets(element.get(), of_analysis, words)) {
@@ -177,7 +176,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
       if (property.is_default() || property.name() == "trace") continue;
       settings[property.name()] = property.canonical_value();
       if (property.name() == "feel" && properties.values.back().second != "auto") {
-        // In one form for all ways to type them, and of a file, what it says now.
+        // In one form for all ways to type them; a file is replaced by its content.
         properties.settings = one_line(settings);
         properties = with_rules(properties, "");
         settings = split(properties.settings);
@@ -186,7 +185,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   } catch (const std::runtime_error& error) {
     throw UsageError(error.what());
   }
-  // The default of mean velocities is another one.
+  // Mean velocities have another default.
   const auto motion = settings.find("motion");
   if (!alpha.empty() && motion != settings.end() && motion->second == "mean") {
     settings["alpha"] = alpha;
@@ -219,7 +218,7 @@ void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
   for (const std::string& film : names) {
     expect_no_property(film, "record FILM");
-    // Other programs name what they write after what they read.
+    // Other programs take the output after the input.
     if (film != names.front() && ends_as_track(film) && !fs::exists(film)) {
       refuse_output(names.front(), film);
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The options of `spidartrack record`.
 #pragma once
 
 #include <filesystem>
@@ -20,25 +19,23 @@ struct RecordProperties {
   std::string settings;
 };
 
-/// The properties with the rules of `feel` themselves in place of the file that has them, beside
-/// `film` or elsewhere, so that a track states what it was made with. Throws std::runtime_error
-/// when they cannot be read.
+/// Replaces the file of `feel`, beside `film` or elsewhere, by its rules, so that a track states
+/// how it was made. Throws std::runtime_error when the file cannot be read.
 RecordProperties with_rules(const RecordProperties& properties, const std::string& film);
 
 /// `words` are of the form PROPERTY=VALUE, or preset=NAME. Throws UsageError, which says what would
-/// be right, for those that do not change what a track contains, or would make it one of zeros;
+/// be right, for properties that do not change a track, or would make it one of zeros;
 /// std::runtime_error when GStreamer has no spidarmotion.
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
 
-/// The properties that the settings of a track state. Throws std::runtime_error as
-/// parse_record_properties() does.
+/// The properties that the settings of a track state. Throws as parse_record_properties() does.
 RecordProperties properties_of(const std::string& settings);
 
-/// Throws UsageError with the line to type in place of one that names the track of `film`.
+/// Throws UsageError with the right line in place of one that names the track of `film`.
 [[noreturn]] void refuse_output(const std::string& film, const std::string& output);
 
-/// Throws UsageError for what looks like a property where a film is expected: `command` is what
-/// comes before the dashes.
+/// Throws UsageError for a property where a film is expected: `command` is the text before the
+/// dashes.
 void expect_no_property(const std::string& film, const std::string& command);
 
 struct RecordOptions {
@@ -47,7 +44,7 @@ struct RecordOptions {
   std::string folder;
   std::string format = "flac";
   RecordProperties properties;
-  std::string manifest;  ///< a file; empty: none
+  std::string manifest;  ///< the file; empty: none
   std::vector<ListedFilm> films;
   std::string left_out;  ///< of list_films()
 

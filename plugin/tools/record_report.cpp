@@ -14,7 +14,7 @@ namespace spidar::tools {
 namespace {
 
 constexpr std::chrono::seconds kTellEvery{10};
-/// An estimate from less says little.
+/// An estimate from less work is too uncertain.
 constexpr double kMinWork_s = 2;
 
 /// A name may contain line breaks, or commands for the terminal.
@@ -31,7 +31,7 @@ size_t width_of_terminal() {
   return known ? size.ws_col : 80;
 }
 
-/// At most `bytes` long, and not cut within a character.
+/// Shortens to at most `bytes`, and not within a character.
 std::string shortened(std::string text, size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;
@@ -115,7 +115,7 @@ std::string RecordReport::in_work() const {
   return line + time_left();
 }
 
-/// As the work has gone so far; empty as long as that is not known.
+/// Extrapolates the work so far; empty as long as that is unknown.
 std::string RecordReport::time_left() const {
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
   double done = work_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The output of `spidartrack record` about a batch of films.
 #pragma once
 
 #include <array>
@@ -14,10 +13,10 @@
 
 namespace spidar::tools {
 
-/// Prints a line for each film when it is done, and at the end how many were recorded. A terminal
-/// has a line below with the films that are being recorded and the time that is left; elsewhere, it
-/// is printed once in ten seconds. The time is estimated by the sizes of the files. The functions
-/// can be called from any thread.
+/// The output of `spidartrack record` about a batch of films. Prints a line for each film when it
+/// is done, and at the end how many were recorded. A terminal has a line below with the films in
+/// work and the time that is left; elsewhere, this line is printed every ten seconds. The time is
+/// estimated by the sizes of the files. Any thread.
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);
@@ -29,13 +28,13 @@ class RecordReport {
 
   void progress(size_t film, int percent);
   void done(size_t film, Result result, const std::string& text);
-  /// Something else about a film that is not done.
+  /// Prints a remark on a film that is not done.
   void note(size_t film, const std::string& text);
 
-  /// Something about all of them.
+  /// Prints a remark on all films.
   void print(const std::string& text);
 
-  /// Prints the summary, unless it was for one film. Returns whether no film failed.
+  /// Prints the summary, unless there was only one film. Returns whether no film failed.
   bool finish();
 
  private:
@@ -50,10 +49,10 @@ class RecordReport {
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
   std::chrono::steady_clock::time_point told_ = begin_;
-  std::vector<double> sizes_;      ///< of the films, in bytes, at least 1
-  double work_ = 0, skipped_ = 0;  ///< bytes of films that were recorded; of others done
+  std::vector<double> sizes_;      ///< in bytes, at least 1
+  double work_ = 0, skipped_ = 0;  ///< bytes of recorded films; of other films that are done
   std::map<size_t, int> in_work_;  ///< film and percent
-  std::array<size_t, 4> count_{};  ///< of each result
+  std::array<size_t, 4> count_{};  ///< by result
   std::vector<std::pair<size_t, std::string>> failures_;
 };
 

@@ -16,12 +16,11 @@
 namespace spidar::tools {
 namespace {
 
-/// Of pictures that are upright, because the arrow and the curve are drawn into them as they are
-/// shown.
+/// The pictures are upright, because the arrow and the curve are drawn as shown.
 constexpr const char* kDrawn = "spidarmotion name=motion device=none overlay=curve ! ";
 constexpr const char* kSubtitles = "subtitles.video_sink subtitleoverlay name=subtitles ! ";
 
-/// Returns what is to be reported of it. Throws std::runtime_error, without the name of the film.
+/// Returns a remark. Throws std::runtime_error, without the name of the film.
 std::string show(const std::string& film, bool draws_subtitles, const RecordProperties& properties,
                  const PartFile& part) {
   RecordReport report({film});

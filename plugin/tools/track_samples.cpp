@@ -63,7 +63,7 @@ SampleSource SampleFile::samples(double gain) const {
 
 namespace {
 
-/// The sample of `block` at `time_ns`, if it lies at a whole millisecond there: those are copied
+/// The sample of `block` at `time_ns`, if it lies at a whole millisecond: such samples are copied
 /// bit by bit.
 std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns) {
   const bool is_whole =
@@ -95,7 +95,7 @@ int64_t give_samples(tracks::OpenTrack& track, const SampleSource::Take& take) {
   return end_ns;
 }
 
-/// Of a film, or of its track itself.
+/// Reads from a film, or from its track itself.
 void read_sound(const std::string& path, const Film& film, const SampleSource::Take& take,
                 TrackCondition& found) {
   const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(found.track);
@@ -115,8 +115,8 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
   }
 }
 
-/// Which file has the track, and what is known of the film when `path` is one; no file when that
-/// is a film without a track. Throws std::runtime_error when it is a picture.
+/// Finds the file of the track, and facts about the film when `path` is one; no file when that film
+/// has no track. Throws std::runtime_error when `path` is a picture.
 TrackCondition find_track(const std::string& path, Film& film) {
   TrackCondition found;
   found.track = path;
@@ -156,8 +156,8 @@ void read_hjif_track(const SampleSource::Take& take, TrackCondition& found) {
   for (const TrackSample& sample : samples) take(sample);
 }
 
-/// Caps for the segment to come behind: flacenc pushes the end of a track that is no longer than
-/// one of its blocks before its own, and GStreamer warns of that.
+/// Stores caps until after the segment: flacenc pushes the end of a track that is no longer than
+/// one of its blocks before its own caps, and GStreamer warns of that.
 GstPadProbeReturn store_caps(GstPad* pad, GstPadProbeInfo* info, gpointer) {
   if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_STREAM_START) {
     return GST_PAD_PROBE_OK;
@@ -168,7 +168,6 @@ GstPadProbeReturn store_caps(GstPad* pad, GstPadProbeInfo* info, gpointer) {
   return GST_PAD_PROBE_REMOVE;
 }
 
-/// Sound that `encoder` makes.
 void write_sound(const PartFile& part, const std::string& encoder, const SampleFile& samples,
                  const tracks::Notes& notes) {
   StoredSound stored;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads and writes tracks of 1000 samples a second, in all file formats.
 #pragma once
 
 #include <cstddef>
@@ -21,21 +20,21 @@
 
 namespace spidar::tools {
 
-/// A file of F32 samples beside the file that is made of them, which is removed with the object.
+/// A file of F32 samples beside the target that is made of them; the object removes it.
 class SampleFile {
  public:
   /// `target` is the file that is made. Throws std::runtime_error as PartFile does.
   explicit SampleFile(const std::string& target) : part_(target + ".raw", {true, {}}) {}
 
-  /// Throws std::runtime_error when it cannot be written.
+  /// Throws std::runtime_error when the sample cannot be written.
   void add(const TrackSample& sample);
-  /// Writes to the file what has been added.
+  /// Writes all added samples to the file.
   void flush();
 
   size_t count() const { return count_; }
   const std::string& path() const { return part_.path(); }
-  /// All samples, multiplied by `gain`. Throws std::runtime_error when they cannot be read. To be
-  /// called after flush().
+  /// All samples, multiplied by `gain`. Throws std::runtime_error when they cannot be read. Call
+  /// flush() before.
   SampleSource samples(double gain = 1) const;
 
  private:
@@ -44,19 +43,18 @@ class SampleFile {
   size_t count_ = 0;
 };
 
-/// Facts about a track besides its samples.
 struct TrackCondition {
   std::string track;     ///< the file that has the samples
-  std::string film;      ///< the film that was given in its place; empty: none
-  std::string other;     ///< why the track is that of another film; empty when it is not
+  std::string film;      ///< the named film, if the name is not that of a track; empty: none
+  std::string other;     ///< why the track belongs to another film; empty if not
   int64_t later_ns = 0;  ///< how much later than the track says the film shows its pictures
   tracks::Faults faults;
-  std::string missing;  ///< what is missing at the end of the file; empty if it is complete
+  std::string missing;  ///< what is missing at the end of the file; empty if nothing
   tracks::Notes notes;
   std::vector<std::string> about;  ///< lines on the axes of funscripts
 };
 
-/// The force upwards: the channel of formats that have only one.
+/// The upward force: the channel of formats that have only one.
 constexpr size_t kUsualAxis = 1;
 
 /// Whether `path` is a track, or a film with one inside it, beside it or in a folder of tracks.
@@ -66,19 +64,19 @@ bool has_track(const std::string& path);
 /// Gives the samples of a track, or of a film with a track (has_track()), in their order; for a
 /// film, the track is the file `track` unless that is empty. The format follows from the end of the
 /// name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
-/// accepts, which is given as it is read. Gaps become silence, and so do samples that are not
-/// numbers, which are counted. Throws std::runtime_error.
+/// accepts, which keeps its rate. Gaps become silence, and so do samples that are not numbers,
+/// which are counted. Throws std::runtime_error.
 TrackCondition read_track(const std::string& path, const SampleSource::Take& take,
                           const tracks::ScriptChoice& script = {}, const std::string& track = {});
 
-/// Throws std::runtime_error when the track is that of another film than the one that was given.
+/// Throws std::runtime_error when the track belongs to another film than the named one.
 void expect_own_track(const TrackCondition& condition);
 
 struct SaveOptions {
   /// For HJIF, AHAP and funscript, as a fraction of the full scale; nothing: the default of each.
   std::optional<double> tolerance;
-  size_t axis = kUsualAxis;  ///< the channel of a funscript
-  double gain = 1;           ///< for the samples of AHAP and funscript
+  size_t axis = kUsualAxis;  ///< of a funscript
+  double gain = 1;           ///< for AHAP and funscript
   tracks::Notes notes;       ///< for sound
 };
 
@@ -93,7 +91,7 @@ void save_track(PartFile& part, const SampleFile& samples, const SaveOptions& op
 /// empty when it cannot.
 std::string encoder_of(const std::string& path);
 
-/// Whether `text` ends with `end`, in small or capital letters.
+/// Whether `text` ends with `end`, ignoring case.
 bool ends_with(const std::string& text, const std::string& end);
 
 /// The checksum of sound that flows through a pad. Outlives the pipeline.
@@ -106,7 +104,7 @@ class StoredSound {
   /// Adds what flows into `element`, whose pipeline has not started.
   void watch(GstElement* element);
   /// Decodes the file `part`, which a pipeline with an element "stored" (encoder_of()) has written.
-  /// Throws std::runtime_error when that is not what has flowed.
+  /// Throws std::runtime_error when the file differs from what has flowed.
   void check(const PartFile& part) const;
 
  private:

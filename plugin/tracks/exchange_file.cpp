@@ -21,10 +21,10 @@
 namespace spidar::tracks {
 namespace {
 
-/// Of HJIF: a track of 24 hours has less.
+/// For HJIF: a track of 24 hours has less.
 constexpr size_t kMaxText_bytes = size_t{1} << 30;
 
-/// What is in memory as a whole, and played from there.
+/// A track that is in memory as a whole.
 class ExchangeTrack : public OpenTrack {
  public:
   /// `at` takes a time in ms.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Names of files in whichever form Unicode gives them.
 #pragma once
 
 #include <filesystem>
@@ -10,9 +9,9 @@
 
 namespace spidar::tracks {
 
-/// With each letter and its accents as one character (Unicode's form NFC). Some systems and
-/// archives write names decomposed (NFD), and file systems tell these apart. What is not UTF-8
-/// stays as it is.
+/// Returns the name with each letter and its accents as one character (Unicode's form NFC). Some
+/// systems and archives write names decomposed (NFD), which file systems distinguish. A name that
+/// is not UTF-8 stays as it is.
 inline std::string composed(const std::string& name) {
   if (g_str_is_ascii(name.c_str())) return name;
   g_autofree gchar* normal =
@@ -20,8 +19,8 @@ inline std::string composed(const std::string& name) {
   return normal ? normal : name;
 }
 
-/// The file or folder of this path, or of one that differs only in the form of its names; empty
-/// when there is none.
+/// Returns the file or folder of this path, or of one that differs only in the form of its names;
+/// empty when there is none.
 inline std::string existing(const std::filesystem::path& path) {
   std::error_code error;
   if (std::filesystem::exists(path, error)) return path.string();

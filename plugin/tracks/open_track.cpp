@@ -19,13 +19,12 @@
 namespace spidar::tracks {
 namespace {
 
-/// Which stream of a file is taken for the track.
+/// Which stream of a file is the track.
 enum class Wanted { kHapticTrack, kFirstSound };
 
-/// So much is read before the track counts as open.
+/// How much is read before the track counts as open.
 constexpr int64_t kFirstPart_ns = 1'000'000'000;
 
-/// All tags that have come to `pad`.
 void read_tags(GstPad* pad, Notes& notes) {
   for (guint i = 0; GstEvent* event = gst_pad_get_sticky_event(pad, GST_EVENT_TAG, i); ++i) {
     GstTagList* tags = nullptr;
@@ -35,8 +34,8 @@ void read_tags(GstPad* pad, Notes& notes) {
   }
 }
 
-/// The type of a file that has no demuxer, so that the stream is the file as it is: that of Wave64,
-/// whose only decoder gives other values. Empty for all others.
+/// The type of a file that has no demuxer, so that its stream is the file itself: Wave64, whose
+/// only decoder gives other values. Empty for all others.
 std::string unparsed_type(GstPad* pad) {
   const Ref<GstPad> inner(gst_ghost_pad_get_target(GST_GHOST_PAD(pad)));
   const Ref<GstElement> source(inner ? gst_pad_get_parent_element(inner.get()) : nullptr);
@@ -46,7 +45,7 @@ std::string unparsed_type(GstPad* pad) {
   return gst_structure_get_name(gst_caps_get_structure(caps.get(), 0));
 }
 
-/// Of sound that could be a track: six channels, at some rate.
+/// Explains sound that could be a track: six channels, at some rate.
 std::string why_unmarked(const GstCaps* caps) {
   int rate_Hz = 0;
   gst_structure_get_int(gst_caps_get_structure(caps, 0), "rate", &rate_Hz);
@@ -161,7 +160,7 @@ class TrackOfFile : public OpenTrack {
            (wanted_ == Wanted::kFirstSound && content == StreamContent::kSound);
   }
 
-  /// The first stream that is wanted is decoded, and all others are ignored.
+  /// Decodes the first wanted stream, and ignores all others.
   GstElement* take_stream(GstPad* pad) {
     const StreamContent content = content_of(pad);
     if (content == StreamContent::kSound) has_sound_ = true;
@@ -211,10 +210,10 @@ class TrackOfFile : public OpenTrack {
     return gone ? 0 : bytes;
   }
 
-  /// Of a pass that has ended: why that is not the end that the file had when it was opened, or
-  /// empty. The demuxers say nothing of it.
+  /// Returns why a pass has not ended where the file ended when it was opened, or an empty text.
+  /// The demuxers do not report that.
   std::string why_short() const {
-    if (!is_open_) return {};  // as missing() finds
+    if (!is_open_) return {};  // missing() reports this
     const int64_t end_ns = end_ns_ + static_cast<int64_t>(GST_MSECOND);
     const bool is_early = length_.available_ns && end_ns < *length_.available_ns;
     const bool has_shrunk = file_bytes() < bytes_;
@@ -230,11 +229,11 @@ class TrackOfFile : public OpenTrack {
     auto& self = *static_cast<TrackOfFile*>(user);
     if (!self.blocks_->error().empty()) return;
     const Ref<GstEvent> segment(gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0));
-    if (!segment) {  // wavparse then goes on for ever
+    if (!segment) {  // otherwise wavparse goes on for ever
       return self.fail(GST_PAD_PARENT(pad), "its head is damaged: no chunk of samples is found");
     }
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad));
-    if (caps.get() != self.caps_.get()) {  // also in the middle of a stream
+    if (caps.get() != self.caps_.get()) {  // caps may change in the middle of a stream
       std::string error = self.input_.set_caps(caps.get());
       if (error.empty() && self.wanted_ == Wanted::kFirstSound) error = why_unmarked(caps.get());
       self.caps_.reset(gst_caps_ref(caps.get()));
@@ -269,7 +268,6 @@ class TrackOfFile : public OpenTrack {
   const std::string path_;
   const bool only_notes_;
   const Wanted wanted_;
-  // When it was opened.
   FileLength length_;
   uint64_t bytes_ = 0;
   std::atomic<bool> is_open_{false};
@@ -280,12 +278,12 @@ class TrackOfFile : public OpenTrack {
   Ref<GstPad> pad_;
   Notes notes_;
   std::atomic<bool> is_chosen_{false}, has_sound_{false};
-  std::atomic<int> ended_{0};  ///< streams
+  std::atomic<int> ended_{0};  ///< number of streams
   // Streaming thread.
   Input input_;
   Ref<GstCaps> caps_;
   int64_t first_ns_ = INT64_MAX;
-  int64_t end_ns_ = 0;  ///< of what has been read in this pass
+  int64_t end_ns_ = 0;  ///< end of what has been read in this pass
   bool has_begun_ = false;
 };
 
@@ -296,7 +294,7 @@ std::unique_ptr<TrackOfFile> open_file(const std::string& path, bool only_notes,
     track->begin();
     if (track->is_chosen()) return track;
     if (!track->has_sound()) break;
-    // The error of the other one explains why it is no track.
+    // The error of the other attempt explains why the file is no track.
   }
   throw std::runtime_error("There is no haptic track in it, and no sound.");
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic track that is read from a file as far as it is needed.
 #pragma once
 
 #include <atomic>
@@ -16,27 +15,29 @@
 
 namespace spidar::tracks {
 
-/// Owned by one thread. What it has read waits in blocks(), which another one may take.
+/// A haptic track that is read from a file piece by piece. Owned by one thread. The pieces wait in
+/// blocks(), from which another thread may take them.
 class OpenTrack {
  public:
-  /// A longer track is taken for one with a wrong timestamp.
+  /// A longer track must have a wrong timestamp.
   static constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};
 
   virtual ~OpenTrack() = default;
 
   virtual const Notes& notes() const = 0;
-  /// As the header and the last bytes of the file say. Nothing when they do not, or when other
-  /// streams may be longer.
+  /// The duration by the header and the last bytes of the file. Nothing when they do not state it,
+  /// or when other streams may be longer.
   virtual std::optional<int64_t> duration_ns() const = 0;
-  /// For a track that ends at `end_ns`: an empty string, or what is missing at the end of the file.
+  /// For a track that ends at `end_ns`: returns an empty string, or what is missing at the end of
+  /// the file.
   virtual std::string missing(int64_t end_ns) const = 0;
   virtual const std::shared_ptr<ReadAhead>& blocks() const = 0;
 
-  /// The next block; false at the end. Times rise. Throws std::runtime_error, which says what was
-  /// wrong, when the file is damaged, the track longer than kLongest_ns, or `stopped` has become
-  /// true.
+  /// Returns the next block; false at the end. Times rise. Throws std::runtime_error, which says
+  /// what was wrong, when the file is damaged, the track longer than kLongest_ns, or `stopped` has
+  /// become true.
   virtual bool next(TrackBlock& block) = 0;
-  /// To the position that ReadAhead::await_seek() has returned.
+  /// Seeks to the position that ReadAhead::await_seek() has returned.
   virtual void seek(int64_t time_ns) = 0;
   /// At the beginning and after seek(): fills blocks() until nothing more of this pass is wanted.
   /// Returns at once if the track has threads of its own for that.
@@ -47,10 +48,11 @@ class OpenTrack {
   virtual std::vector<std::string> unfelt() const { return {}; }
 };
 
-/// Opens the haptic track of a file, else its first sound, from any container that GStreamer has a
-/// decoder for. Returns when its first second has been read. Throws std::runtime_error, which says
-/// what was wrong, when there is none, when it is not a haptic track (Input::set_caps()), when the
-/// file is damaged or not a regular one, or when `stopped` has become true.
+/// Opens the haptic track of a file, else its first sound, from any container for which GStreamer
+/// has a decoder. Returns when the first second has been read. Throws std::runtime_error, which
+/// says what was wrong, when there is none, when the sound is not a haptic track
+/// (Input::set_caps()), when the file is damaged or not a regular one, or when `stopped` has become
+/// true.
 std::unique_ptr<OpenTrack> open_track(const std::string& path,
                                       const std::atomic<bool>* stopped = nullptr);
 

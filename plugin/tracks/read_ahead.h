@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A few seconds of a track, between the thread that reads its file and the one that plays it.
 #pragma once
 
 #include <chrono>
@@ -22,7 +21,8 @@ inline int64_t end_of(const TrackBlock& block) {
   return block.begin_ns + block.duration_ns;
 }
 
-/// The file is read from one position to the next: a pass. Each seek() begins another one.
+/// A few seconds of a track, between the thread that reads its file and the one that plays it. The
+/// file is read from one position to the next: a pass. Each seek() begins another one.
 class ReadAhead {
  public:
   /// How far the file is read ahead of playing: longer than a disk takes to start.
@@ -32,17 +32,18 @@ class ReadAhead {
 
   // --- the thread that reads
 
-  /// Waits for room and adds the block. Blocks before the position that was sought, and those whose
-  /// times do not rise, are left out. Returns false when nothing more of this pass is wanted.
+  /// Waits until the queue has space and adds the block. Blocks before the sought position, and
+  /// those whose times do not rise, are left out. Returns false when nothing more of this pass is
+  /// wanted.
   bool put(const TrackBlock& block, const tracks::Faults& faults);
-  /// The file ends here, with an `error` if it should not. Ignored when nothing more of this pass
-  /// is wanted.
+  /// Tells that the file ends here, with an `error` if it should not. Ignored when nothing more of
+  /// this pass is wanted.
   void end_pass(const std::string& error);
-  /// The file cannot be read further. The first error is kept.
+  /// Tells that the file cannot be read further. The first error counts.
   void end(const std::string& error);
   /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
-  /// Blocks from now on are read from the position that await_seek() returned last.
+  /// Tells that blocks come from the position that await_seek() returned last.
   void begin_pass();
 
   // --- the thread that plays
@@ -50,34 +51,33 @@ class ReadAhead {
   enum class Found {
     kBlock,
     kEnd,  ///< there is no more, see error()
-    kLate  ///< it has not been read yet
+    kLate  ///< the block has not been read yet
   };
 
-  /// The film shows everything `later_ns` later than the file says. To be called before the first
-  /// take().
+  /// Tells that the film shows everything `later_ns` later than the file says. Call this before the
+  /// first take().
   void set_later(int64_t later_ns);
-  /// The next blocks are those that end after `time_ns`.
+  /// Seeks: the next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
   /// Moves the oldest block into `block`; waits for it until `limit`, or until interrupted.
   Found take(TrackBlock& block, std::chrono::steady_clock::time_point limit);
 
   // --- any thread
 
-  /// Why the file could not be read to its end; empty as long as it could.
+  /// Why the file could not be read to its end; empty if it could so far.
   std::string error() const;
-  /// Whether there was an error, and all that was read before it has been taken.
+  /// Whether there was an error, and every block before it has been taken.
   bool has_failed() const;
   /// Whether take() has waited in vain.
   bool was_late() const;
   tracks::Faults faults() const;
-  /// While it is interrupted, take() does not wait.
   void set_interrupted(bool interrupted) { set(interrupted_, interrupted); }
   /// From now on, nothing waits and no block is added.
   void stop() { set(stopped_, true); }
 
  private:
   void set(bool& flag, bool value);
-  void set_end(const std::string& error);  // while it is locked
+  void set_end(const std::string& error);  // with the mutex held
   bool is_wanted() const { return !stopped_ && pass_ == wanted_pass_; }
   bool is_full() const;
 
@@ -90,7 +90,7 @@ class ReadAhead {
   int64_t later_ns_ = 0;
   int64_t sought_ns_ = 0;        ///< in the file
   int64_t last_ns_ = INT64_MIN;  ///< begin of the last block of this pass
-  // Passes: that of the blocks that come, of the seek that is executed, and of the last seek().
+  // Passes: that of the arriving blocks, of the seek in work, and of the last seek().
   uint64_t pass_ = 0, next_pass_ = 0, wanted_pass_ = 0;
 };
 

@@ -20,15 +20,15 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kEnd = ".funscript";
-/// The force upwards: the channel of a script whose name has no axis.
+/// The upward force: the channel of a script whose name has no axis.
 constexpr size_t kMainChannel = 1;
-/// 12 h of positions that follow each other in 40 ms have half of it.
+/// 12 h of positions every 40 ms take half of this.
 constexpr size_t kMax_bytes = size_t{64} << 20;
 
 /// A file of a set.
 struct ScriptFile {
   std::string path;
-  std::string axis;  ///< of its name; empty: none
+  std::string axis;  ///< in its name; empty: none
 };
 
 /// FILM.AXIS.funscript without FILM: "AXIS"; nothing when it is another file.
@@ -42,7 +42,7 @@ std::optional<std::string> axis_in(const std::string& name, const std::string& f
   return is_axis ? std::optional(axis.substr(1)) : std::nullopt;
 }
 
-/// Those that are named for `film`, a path without an extension; the main one first, then by name.
+/// Lists the scripts for `film`, a path without an extension; the main one first, then by name.
 std::vector<ScriptFile> list_set(const std::string& film) {
   const fs::path path = film;
   std::error_code error;
@@ -63,14 +63,14 @@ bool is_felt(const ScriptFile& file) {
   return file.axis.empty() || channel_of_axis(file.axis);
 }
 
-/// Those of a film, by its whole name, else by that without the extension.
+/// Lists the scripts of a film, by its whole name, else by that without the extension.
 std::vector<ScriptFile> set_of(const std::string& film) {
   std::vector<ScriptFile> files = list_set(film);
   if (std::any_of(files.begin(), files.end(), is_felt)) return files;
   return list_set(fs::path(film).replace_extension().string());
 }
 
-/// Of a script: the path for list_set(), and the axis of its name.
+/// Splits a script's path into the path for list_set(), and the axis of its name.
 ScriptFile without_end(const std::string& path) {
   const std::string whole = path.substr(0, path.size() - std::string(kEnd).size());
   const std::string end = fs::path(whole).extension().string();
@@ -100,7 +100,6 @@ void add_axis(const std::string& path, ScriptAxis axis, const ScriptChoice& choi
   }
 }
 
-/// Adds what is in a file.
 void add_file(const ScriptFile& file, const ScriptChoice& choice, ScriptSet& set) {
   if (!is_felt(file) && !choice.channel) {
     set.unfelt.push_back(file.path);

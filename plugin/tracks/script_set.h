@@ -14,7 +14,7 @@
 
 namespace spidar::tracks {
 
-/// Judges by the extension, in small or capital letters.
+/// Judges by the extension, ignoring case.
 bool is_script(const std::string& path);
 
 /// Finds a script beside a film, whose set is to be read: FILM.funscript, FILM.roll.funscript and
@@ -24,16 +24,15 @@ std::string find_script(const std::string& film);
 
 struct ScriptChoice {
   std::optional<size_t> channel;  ///< only the actions of the file itself, as this channel
-  std::optional<double> gain;     ///< with which all were written; nothing: as each one says
-  std::string film;  ///< whose set is read; empty: the one that the script is named for
+  std::optional<double> gain;     ///< the gain of all files; nothing: each file states its own
+  std::string film;               ///< whose set is read; empty: the film in the script's name
 };
 
-/// Axes of several files.
 struct ScriptSet {
   std::vector<ScriptAxis> axes;    ///< one for each channel
   std::vector<std::string> about;  ///< a line on each axis, with its file
   std::vector<std::string>
-      unfelt;  ///< what is not read: "film.vib.funscript", "vib of film.funscript"
+      unfelt;  ///< parts that are not read: "film.vib.funscript", "vib of film.funscript"
 
   /// One more than the last millisecond that has a position.
   int64_t length_ms() const;

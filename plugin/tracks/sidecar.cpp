@@ -26,7 +26,7 @@ constexpr std::initializer_list<const char*> kTrackSuffixes = {".haptic.flac", "
 
 namespace fs = std::filesystem;
 
-/// What is there, in the order in which it is looked for.
+/// Lists the existing files, in the order of the search.
 std::vector<std::string> list_beside(const std::string& film,
                                      std::initializer_list<const char*> ends) {
   std::vector<std::string> files;
@@ -41,8 +41,7 @@ std::vector<std::string> list_beside(const std::string& film,
   return files;
 }
 
-/// Folders of tracks, in the order in which they are searched: those that the user has named, and
-/// that of the user.
+/// Folders of tracks in the order of the search: those of the variable, and that of the user.
 std::vector<fs::path> track_folders() {
   std::vector<fs::path> folders = listed_folders(kTrackPathVariable);
   folders.push_back(fs::path(g_get_user_data_dir()) / "gst-spidar" / "tracks");
@@ -50,8 +49,8 @@ std::vector<fs::path> track_folders() {
 }
 
 /// Tracks of a film: beside it, and then in folders of tracks, where `spidartrack record` gives
-/// them the subfolders of their films. It is not known below which folder these are, so what agrees
-/// in most of the path comes first.
+/// them the subfolders of their films. The parent folder of these is unknown, so the track that
+/// agrees in most of the path comes first.
 std::vector<std::string> list_tracks(const std::string& film) {
   std::vector<std::string> files = list_beside(film, kTrackSuffixes);
   if (film.empty()) return files;
@@ -123,7 +122,7 @@ std::string why_not_played(const std::string& film, const std::string& track) {
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes) {
   const FilmFingerprint& fingerprint = notes.film;
   FilmMatch match;
-  // Plus a millisecond, because many containers round durations to milliseconds.
+  // A millisecond is added because many containers round durations to milliseconds.
   int64_t tolerance_ns = film.frame_ns + static_cast<int64_t>(GST_MSECOND);
   if (!fingerprint.empty()) {
     const std::optional<int64_t> later_ns = find_picture(fingerprint, film.packets);
@@ -134,7 +133,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
     match.later_ns = *later_ns;
     tolerance_ns += kMaxMissing_ns;
   } else {
-    tolerance_ns += film.begin_ns;  // it may begin with the first picture
+    tolerance_ns += film.begin_ns;  // the track may begin with the first picture
   }
   if (!notes.origin.empty()) return match;
   const int64_t end_ns = film.end_ns.value_or(film.duration_ns);
@@ -151,7 +150,7 @@ FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& no
 std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns) {
   gint64 film_ns = 0;
   if (!gst_pad_peer_query_duration(pad, GST_FORMAT_TIME, &film_ns) || film_ns <= 0) return {};
-  // Plus a millisecond, because many containers round durations to milliseconds.
+  // A millisecond is added because many containers round durations to milliseconds.
   if (std::llabs(film_ns - track_ns) <= frame_ns + GST_MSECOND) return {};
   return "the track lasts " + seconds_text(track_ns) + ", the film " + seconds_text(film_ns);
 }

@@ -15,23 +15,24 @@ namespace spidar {
 
 /// The path of FILM with one of the suffixes `ends`, else the same without the extension of FILM:
 /// the first file that exists; empty when none does. The whole name comes first because films may
-/// differ in nothing but their extensions.
+/// differ only in their extensions.
 std::string find_beside(const std::string& film, std::initializer_list<const char*> ends);
 
-/// Path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not from a file.
+/// The path of the film that comes to `pad` (GST_QUERY_URI upstream); empty when it is not a file.
 std::string film_of(GstPad* pad);
 
 /// The environment variable that lists folders of tracks that do not lie beside their films,
 /// separated by colons.
 extern const char* const kTrackPathVariable;
 
-/// `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else in the
-/// folders of kTrackPathVariable, else in that of the user, ~/.local/share/gst-spidar/tracks: in
-/// the subfolder that the film has, if there is one. Empty when there is none.
+/// Returns `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else
+/// in the folders of kTrackPathVariable, else in that of the user,
+/// ~/.local/share/gst-spidar/tracks: in the subfolder of the film, if there is one. Empty when
+/// there is none.
 std::string find_sidecar(const std::string& film);
 
-/// Empty, or a sentence about the track that find_sidecar() finds in place of `track`, or about
-/// those beside the film that it passes over for `track`.
+/// Returns an empty text, or a sentence about the track that find_sidecar() finds in place of
+/// `track`, or about those beside the film that it passes over for `track`.
 std::string why_not_played(const std::string& film, const std::string& track);
 
 /// FilmMatch::mismatch of a track that was made of other pictures than the film has.
@@ -44,13 +45,13 @@ struct FilmMatch {
 
 /// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
 /// recognised by the pictures, which may come later in another container; any other by its length:
-/// it ends where the last picture does, but for one frame. A track that was converted from another
-/// format may end anywhere.
+/// it ends with the last picture, within one frame. A track that was converted from another format
+/// may end anywhere.
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
-/// For a film that does not come from a file: an empty string, or why a track that lasts `track_ns`
-/// is not that of the film that comes to `pad`: a film whose duration is known lasts as long, but
-/// for one of its frames.
+/// For a film that is not a file: returns an empty string, or why a track that lasts `track_ns` is
+/// not that of the film that comes to `pad`: a film of known duration lasts as long, within one
+/// frame.
 std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

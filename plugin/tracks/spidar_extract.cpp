@@ -55,9 +55,9 @@ struct _GstSpidarExtract {
   // Streaming thread.
   Stream* track;
   GstFlowCombiner* flows;
-  gint without_meta;  // atomic: how many frames in succession
-  gint warned;        // atomic: about them
-  gint told;          // atomic: of sinks that wait for each other
+  gint without_meta;  // atomic: successive frames without a meta
+  gint warned;        // atomic: a warning of that was posted
+  gint told;          // atomic: sinks that wait for each other were reported
 };
 
 static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -108,7 +108,7 @@ static bool is_silent_motion(GstElement* element) {
   return !attaches;
 }
 
-/// Once, that frames have no data, and what is wrong with the pipeline.
+/// Warns once that frames have no data, and what is wrong with the pipeline.
 static void warn_of_data(GstSpidarExtract* self) {
   if (g_atomic_int_exchange(&self->warned, TRUE)) return;
   const char* why = "there is no spidarmotion in front of spidarextract";
@@ -129,18 +129,18 @@ static void warn_of_data(GstSpidarExtract* self) {
       (nullptr));
 }
 
-/// So much of a stream a queue takes by default. A video sink that has not taken the first picture
+/// How much of a stream a queue takes by default. A video sink that has not taken the first picture
 /// by then, while the pipeline waits for its sinks, waits for that of the track.
 static constexpr GstClockTime kQueue = GST_SECOND;
 
-/// Called by the clock, while the video is being pushed.
+/// The clock calls this while the video is being pushed.
 static gboolean tell_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(user);
   const spidar::Ref<GstObject> pipeline = spidar::root_of(self);
   const bool waits = GST_STATE_PENDING(pipeline.get()) != GST_STATE_VOID_PENDING;
   if (!waits) return TRUE;
   if (g_atomic_int_get(&self->without_meta) > 0) {
-    warn_of_data(self);  // whose pipeline has the queue, too
+    warn_of_data(self);  // the queue is missing in the pipeline
     return TRUE;
   }
   if (g_atomic_int_exchange(&self->told, TRUE)) return TRUE;
@@ -169,8 +169,8 @@ static GstFlowReturn push_video(GstSpidarExtract* self, GstBuffer* buffer) {
 static GstFlowReturn gst_spidar_extract_chain(GstPad*, GstObject* parent, GstBuffer* buffer) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(parent);
   const FrameWrench frame = read_frame(buffer, self->track->last_wrench());
-  // No warning for a frame without a picture, nor for a single one: when two frames have the same
-  // time, spidarmotion analyses only the first, and reports it.
+  // A frame without a picture needs no warning, nor does a single one: when two frames have the
+  // same time, spidarmotion analyses only the first, and reports that.
   const bool is_missing = !frame.known && !GST_BUFFER_FLAG_IS_SET(buffer, GST_BUFFER_FLAG_GAP);
   if (!is_missing) {
     g_atomic_int_set(&self->without_meta, 0);
@@ -290,7 +290,7 @@ static void gst_spidar_extract_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_extract_parent_class)->finalize(object);
 }
 
-/// Gives the element the pad that the template describes and returns it. The element keeps it.
+/// Gives the element the pad of the template and returns the pad. The element keeps it.
 static GstPad* add_pad(GstElement* element, GstStaticPadTemplate* pad_template) {
   GstPad* pad = gst_pad_new_from_static_template(pad_template, pad_template->name_template);
   gst_element_add_pad(element, pad);

@@ -71,7 +71,7 @@ inline GstFlowReturn wait_until(GstBaseSink* sink, GstMiniObject* object, gint64
   return GST_FLOW_OK;
 }
 
-/// What an application can set on spidarsink. The words are those of spidarmotion.
+/// The properties of spidarsink. The words are those of spidarmotion.
 struct SinkProperties {
   std::string device = "sim";
   std::string profile;  ///< empty: that of the device's board
@@ -84,7 +84,7 @@ struct SinkProperties {
   std::string haptic_trace;
 };
 
-/// All of spidarsink, `stats` included; `ts-offset` is that of every sink.
+/// All properties of spidarsink, with `stats`; `ts-offset` is that of every sink.
 inline const PropertyTable<SinkProperties>& sink_properties() {
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<SinkProperties>{{
@@ -129,7 +129,7 @@ class BlockMessages {
  public:
   explicit BlockMessages(GstElement* element) : element_(element) {}
 
-  /// Another stream comes to this pad: its file is the track or, where there is none, the element.
+  /// Begins another stream: its file is the track or, where there is none, the element.
   void begin_stream(GstPad* sink) {
     const std::string file = film_of(sink);
     track_ = std::make_shared<const std::string>(file.empty() ? GST_OBJECT_NAME(element_) : file);
@@ -183,7 +183,7 @@ struct SinkState {
         track_warnings(element),
         messages(element) {}
 
-  std::mutex setting;             // settings reach the output in the order in which they were made
+  std::mutex setting;             // settings must reach the output in their order
   SinkProperties settings;        // object lock
   spidar::tracks::Faults faults;  // object lock; of the stream so far
   guint64 samples = 0;            // object lock
@@ -233,7 +233,7 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   return FALSE;
 }
 
-/// A stream of other sound, whose source does not ask first what is accepted, gets as far as
+/// A stream of other sound, whose source does not first ask what is accepted, gets as far as
 /// set_caps(): the sentence there explains more than a failed negotiation.
 static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
   if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) {
@@ -243,7 +243,8 @@ static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
   return TRUE;
 }
 
-/// Samples are handed to the loop ahead of their time, so render() waits instead of the base class.
+/// Samples are forwarded to the loop ahead of their time, so render() waits instead of the base
+/// class.
 static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* start,
                                       GstClockTime* end) {
   *start = *end = GST_CLOCK_TIME_NONE;
@@ -303,7 +304,8 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
-      // Flushes again, because a buffer may have been in progress when the flush began.
+      // The loop may have received a buffer that was in progress when the flush began, so it is
+      // cleared again.
       self->state->queue.clear();
       self->state->input.reset();
       if (reset_time) self->state->output.follower().expect_base_time();
@@ -343,7 +345,7 @@ static gboolean gst_spidar_sink_start(GstBaseSink* sink) {
 static gboolean gst_spidar_sink_stop(GstBaseSink* sink) {
   GstSpidarSink* self = GST_SPIDAR_SINK(sink);
   self->state->queue.clear();
-  // Reported here, because messages during the change to NULL are discarded.
+  // The report comes here, because messages during the change to NULL are discarded.
   self->state->warnings.end_haptic_trace(self->state->output.session());
   return TRUE;
 }

@@ -23,5 +23,5 @@ namespace spidar {
 class HapticOutput;
 }
 
-/// The output of `self`, for tests that step the element by hand.
+/// The output of `self`, for tests that step the element.
 spidar::HapticOutput& gst_spidar_sink_output(GstSpidarSink* self);

@@ -33,7 +33,7 @@ std::string strange_mask(const GstCaps* caps) {
 std::string Input::set_caps(const GstCaps* caps) {
   GstAudioInfo info;
   if (!gst_audio_info_from_caps(&info, caps)) {
-    // sfdec, which names none, also scales floats wrongly and adds samples at the end.
+    // sfdec, which has no mask, also scales floats wrongly and adds samples at the end.
     return has_no_mask(caps)
                ? "What has decoded this names no channel-mask, so that it is not known which "
                  "channel "

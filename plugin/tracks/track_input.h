@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Conversion of buffers of sound to blocks of a haptic track.
 #pragma once
 
 #include <cstdint>
@@ -17,14 +16,13 @@
 
 namespace spidar::tracks {
 
-/// Faults in the samples of a stream.
 struct Faults {
-  uint64_t not_finite = 0;   ///< samples with a channel that is not finite: at rest instead
+  uint64_t not_finite = 0;   ///< samples with a channel that is not finite: zero instead
   uint64_t beyond_full = 0;  ///< samples with a channel beyond the full scale
-  int sound_channel = -1;    ///< a channel that is sound for ears, see Band; -1: none
+  int sound_channel = -1;    ///< a channel that is audible sound, see Band; -1: none
 };
 
-/// For `stats`, with the number of `samples` and how many of them were `refused`.
+/// Fields for `stats`, with the number of `samples` and of those that were `refused`.
 inline void sample_fields(uint64_t samples, const Faults& faults, uint64_t refused, FieldSink& to) {
   to("samples", "", samples, "samples of the track that were received");
   to("samples-not-finite", "", faults.not_finite,
@@ -35,8 +33,9 @@ inline void sample_fields(uint64_t samples, const Faults& faults, uint64_t refus
      "samples that were not rendered, because too many were waiting");
 }
 
-/// The only reader of samples. It follows everything that their caps state: format with its byte
-/// order, rate, channels and their mask, and the layout, interleaved or not. Streaming thread only.
+/// Converts buffers of sound to blocks of a haptic track. Follows everything that their caps state:
+/// format with its byte order, rate, channels and their mask, and the layout, interleaved or not.
+/// Streaming thread only.
 class Input {
  public:
   static constexpr int kLowestRate_Hz = 200;
@@ -45,7 +44,7 @@ class Input {
   /// Returns an empty string, or a sentence that says why sound of these caps is not a haptic
   /// track, and what would be.
   std::string set_caps(const GstCaps* caps);
-  /// The next buffer does not continue the previous one.
+  /// Tells that the next buffer does not continue the previous one.
   void reset();
 
   /// Gives the samples of `buffer` that lie in `segment`, multiplied by `gain`, in blocks of rising
@@ -54,7 +53,7 @@ class Input {
   GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain,
                      const std::function<GstFlowReturn(const TrackBlock&)>& give);
 
-  /// Running time of the end of what was read; GST_CLOCK_TIME_NONE before.
+  /// Running time of the end of the last buffer; GST_CLOCK_TIME_NONE before the first.
   GstClockTime end() const { return end_; }
   const Faults& faults() const { return faults_; }
   uint64_t samples() const { return samples_; }

@@ -23,10 +23,10 @@
 namespace spidar::tracks {
 namespace {
 
-/// How long stop() waits for a thread that has been asked to stop; it looks every 20 ms.
+/// How long stop() waits for a thread, which looks every 20 ms whether it must stop.
 constexpr std::chrono::milliseconds kLongestStop{500};
 
-/// Nothing when the film cannot be read.
+/// Returns nothing when the film cannot be read.
 std::optional<Film> read_if_possible(const std::string& film, const std::atomic<bool>* stopped) {
   if (film.empty()) return std::nullopt;
   try {
@@ -36,7 +36,7 @@ std::optional<Film> read_if_possible(const std::string& film, const std::atomic<
   }
 }
 
-/// A sentence without its full stop, for the end of another one.
+/// Removes the full stop of a sentence, for the end of another one.
 std::string clause(std::string sentence) {
   if (!sentence.empty() && sentence.back() == '.') sentence.pop_back();
   return sentence;
@@ -87,7 +87,7 @@ void post_what_is_felt(GstElement* element, const std::string& text) {
                    "The property 'track' chooses another.");
 }
 
-/// Names what is set and changes nothing while a track is played.
+/// Warns of properties that are set and change nothing while a track is played.
 void name_unused(GstElement* element, const std::string& path) {
   g_autofree gchar* feel = nullptr;
   g_object_get(element, "feel", &feel, nullptr);
@@ -117,12 +117,12 @@ struct Loader::Reading {
   }
 
   std::atomic<bool> stopped{false};
-  std::mutex mutex;  // of what follows
+  std::mutex mutex;  // guards the members below
   std::condition_variable changed;
   bool interrupted = false;
-  bool opened = false;  // or it is known why not
+  bool opened = false;  // the track is open, or its error is known
   bool taken = false;
-  bool done = false;  // the thread
+  bool done = false;  // the thread has ended
   LoadedTrack loaded;
 };
 

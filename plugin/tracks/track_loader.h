@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads the track for a film in a thread of its own while it is played, and decides whether it is
-/// rendered.
 #pragma once
 
 #include <chrono>
@@ -21,19 +19,20 @@
 
 namespace spidar::tracks {
 
-/// A track that is played in place of analysing frames.
+/// A track that replaces the analysis of frames.
 struct LoadedTrack {
   std::string path;                   ///< empty: there is none
   std::shared_ptr<ReadAhead> blocks;  ///< null when the file cannot be read
   int64_t duration_ns = 0;
-  std::string error;         ///< why it cannot be used; empty when it can
+  std::string error;         ///< why the track cannot be used; empty when it can
   bool is_compared = false;  ///< with the film
   bool is_named = false;     ///< by track=FILE, so that it is felt with any film
-  std::string about;         ///< what is felt, and as what; empty: not known
-  std::string remark;        ///< what is not felt, or why it is felt nevertheless; empty: nothing
+  std::string about;         ///< what is felt, and how; empty: unknown
+  std::string remark;  ///< what is not felt, or why the track is felt nevertheless; empty: nothing
 };
 
-/// Reading may take long on a slow disk or network share, and for ever on a broken one.
+/// Reads the track for a film in a thread of its own while it is played. Reading may take long on a
+/// slow disk or network share, and for ever on a broken one.
 class Loader {
  public:
   Loader() = default;
@@ -44,17 +43,16 @@ class Loader {
   // --- streaming thread
 
   /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track inside
-  /// it. Nothing when `wanted` is empty. Stops what was being read.
+  /// it. Nothing when `wanted` is empty. Stops reading the previous track.
   void begin(const std::string& wanted, const std::string& film);
-  /// Returns when it is known whether the track can be used, when `limit` has passed, or when it
-  /// is interrupted.
+  /// Returns when it is known whether the track can be used, when `limit` has passed, or when
+  /// interrupted.
   void await(std::chrono::milliseconds limit);
-  /// The track that was opened, once; nothing before. It is read further until stop().
+  /// Returns the opened track, once; nothing before. The thread continues to read until stop().
   std::optional<LoadedTrack> take();
 
   // --- any thread
 
-  /// While it is interrupted, up to begin(), neither await() nor ReadAhead::take() waits.
   void set_interrupted(bool interrupted);
 
   // --- while no streaming thread runs
@@ -73,19 +71,18 @@ class Loader {
   std::thread thread_;
 };
 
-/// Reports on a track while it is played. Streaming thread.
+/// Decides whether a track is rendered, and reports on it. Streaming thread.
 class FeltTrack {
  public:
   explicit FeltTrack(GstElement* element) : element_(element), warnings_(element) {}
 
-  /// The blocks to be rendered for the film that comes to the sink pad of the element. Null when
-  /// there are none; a warning on the bus when the track cannot be used, or is that of another
-  /// film; else information on what is felt. Rules of what is felt take precedence over a track
-  /// that was only found, not over one that track= names.
+  /// The blocks to be rendered for the film that comes to the sink pad of the element; null when
+  /// there are none. Posts a warning when the track cannot be used, or is that of another film;
+  /// else information on what is felt. Rules of what is felt take precedence over a track that was
+  /// only found, not over one that track= names.
   std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns, bool has_rules);
-  /// Posts each warning once. False when the track cannot be read further.
+  /// Posts each warning once. Returns false when the track cannot be read further.
   bool check();
-  /// No track is rendered any more.
   void reset() { blocks_ = nullptr; }
 
  private:

@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kBufferSamples = Stream::kBuffer_ns / kTrackPeriod_ns;
 
-/// Whose time is the running time of `video`, in which it plays forward.
+/// A segment whose time is the running time of `video`, in which it plays forward.
 GstSegment running_segment(const GstSegment& video) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);
@@ -97,7 +97,7 @@ GstFlowReturn Stream::begin_segment(const GstEvent* event) {
   return flow;
 }
 
-/// -1 if it is not shown.
+/// Returns -1 if the time is not shown.
 int64_t Stream::running_ns(guint64 time) const {
   const GstClockTime running = gst_segment_to_running_time(&segment_, GST_FORMAT_TIME, time);
   return is_time(running) ? signed_ns(running) : -1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The second pad of spidarextract: wrenches of frames become buffers of samples.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +19,22 @@ namespace spidar::tracks {
   "1000, channels = (int) 6, channel-mask = (bitmask) " mask
 #define SPIDAR_TRACK_CAPS SPIDAR_TRACK_CAPS_WITH("0x3f") "; " SPIDAR_TRACK_CAPS_WITH("0x0")
 
-/// The wrench of one frame, and what is known of it.
 struct FrameWrench {
   GstClockTime pts = GST_CLOCK_TIME_NONE;
   GstClockTime duration = GST_CLOCK_TIME_NONE;
-  bool known = false;     ///< it was analysed
-  bool compared = false;  ///< with an earlier frame: its wrench holds until the next one is due
-  bool repeats = false;   ///< shows the picture of the previous frame
-  /// Running time between the two pictures from which its motion was measured; 0: none.
+  bool known = false;     ///< whether the frame was analysed
+  bool compared = false;  ///< with an earlier frame: the wrench holds until the next frame is due
+  bool repeats = false;   ///< whether the frame shows the picture of the previous one
+  /// Running time between the two pictures from which the motion was measured; 0: none.
   int64_t interval_ns = 0;
   Wrench wrench;
 };
 
-/// Samples lie at whole milliseconds of the running time of the video, from 0 on, whatever segments
-/// the frames come in: a demuxer may move the segment after the first frame (matroskademux, when
-/// the sound begins earlier than the pictures), an edit list has one segment for each edit, and
-/// encoders of sound accept no step backwards. The segment of the samples gives their stream time.
+/// The second pad of spidarextract: turns wrenches of frames into buffers of samples. Samples lie
+/// at whole milliseconds of the running time of the video, from 0 on, in whatever segments the
+/// frames come: a demuxer may move the segment after the first frame (matroskademux, when the sound
+/// begins earlier than the pictures), an edit list has one segment for each edit, and encoders of
+/// sound accept no step backwards. The segment of the samples gives their stream time.
 ///
 /// Streaming thread only. All methods that return a flow push what has become known.
 class Stream {
@@ -44,44 +43,42 @@ class Stream {
   /// The curve between two frames needs the frame after them; if that is further away than this,
   /// the samples do not wait for it.
   static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
-  /// An interval without frames is silent. A longer one than this is a wrong time stamp, or the
-  /// beginning of a stream that has been running for long: there are no samples in it.
+  /// An interval without frames is silent. A longer interval than this is a wrong time stamp, or
+  /// the beginning of a stream that has been running for long, and has no samples.
   static constexpr int64_t kLongestSilence_ns = 3600 * int64_t{1'000'000'000};
 
-  /// `pad` belongs to the element that owns this.
+  /// `pad` belongs to the element that owns this object.
   explicit Stream(GstPad* pad);
   ~Stream();
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
 
-  /// Another stream begins upstream: begins one here, with a stream id of its own.
+  /// Begins another stream, with a stream id of its own.
   void begin_stream(GstElement* element, const GstEvent* stream_start);
-  /// A segment of the video begins. The samples begin another one only where their stream time does
-  /// not continue.
+  /// Begins a segment of the video. The samples begin another segment only where their stream time
+  /// does not continue.
   GstFlowReturn begin_segment(const GstEvent* event);
   GstFlowReturn add(const FrameWrench& frame);
-  /// There are no frames from here on.
+  /// Tells that there are no frames from here on.
   GstFlowReturn add_gap(GstClockTime pts);
-  /// Pushes everything up to the end of the last frame, which ends at rest.
+  /// Pushes everything up to the end of the last frame, where the force is zero.
   GstFlowReturn finish();
-  /// Discards everything that is pending.
   void flush();
-  /// Discards the segment, too.
+  /// Also discards the segment.
   void reset();
 
   /// Whether a buffer has been pushed since the beginning, or the last flush.
   bool has_pushed() const { return pushed_; }
-  /// The wrench of the frame added last.
   const Wrench& last_wrench() const { return last_wrench_; }
 
-  /// How long a sample may wait in here.
   static constexpr GstClockTime latency_ns() { return kBuffer_ns + kLookAhead_ns; }
 
  private:
   bool negotiate();
   int64_t running_ns(guint64 time) const;
   void begin_at(int64_t time_ns);
-  /// A frame so late that its time stamp may be wrong, unless the next one is near it.
+  /// Whether a frame comes so late that its time stamp may be wrong, unless the next one is near
+  /// it.
   bool is_alone(int64_t time_ns);
   /// Pushes everything up to the end of the last frame, or to `until_ns`, which may be later.
   GstFlowReturn settle(int64_t until_ns);
@@ -95,11 +92,11 @@ class Stream {
   bool negotiated_ = false;
   bool begun_ = false;
   bool pushed_ = false;
-  int64_t jumped_to_ns_ = -1;  ///< of the last frame, if that is_alone()
+  int64_t jumped_to_ns_ = -1;  ///< time of the last frame, if that is_alone()
   TrackSampler sampler_;
   int64_t last_frame_ns_ = 0;  ///< running time
   Wrench last_wrench_;
-  int64_t interval_ns_ = 0;  ///< its duration, or the time since the previous one
+  int64_t interval_ns_ = 0;  ///< duration of the last frame, or the time since the previous one
   // The buffer that is being filled.
   GstBuffer* buffer_ = nullptr;
   GstMapInfo map_{};

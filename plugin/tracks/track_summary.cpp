@@ -12,10 +12,10 @@ namespace spidar::tracks {
 namespace {
 
 constexpr double kCorner_Hz = 30;
-/// A single step has less of its energy above 30 Hz when it has been felt for so long.
+/// A single step that is felt for this long has less than kMaxFast of its energy above 30 Hz.
 constexpr double kJudged_s = 1;
 
-/// What a channel has to have to be felt, in fractions of the full scale.
+/// The least value that is felt, in fractions of the full scale.
 double least_felt(size_t channel) {
   return kFeltForce_N * (channel < kTrackChannels / 2 ? 1 : kTorqueArm_m) / full_scale(channel);
 }

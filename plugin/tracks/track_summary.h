@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A track in numbers, and how fast it changes: no motion in a film is faster than 30 Hz, and most
-/// sound is.
+/// Statistics of a track, and how fast it changes: no motion in a film is faster than 30 Hz, and
+/// most sound is.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace spidar::tracks {
 
-/// A channel with a larger fraction of its energy above 30 Hz is sound for ears.
+/// A channel with a larger fraction of its energy above 30 Hz is audible sound.
 constexpr double kMaxFast = 0.1;
 
 /// Energies of consecutive samples, `rate_Hz` of them a second.
@@ -20,12 +20,12 @@ class Band {
   explicit Band(double rate_Hz = kTrackRate_Hz);
   void add(const TrackSample& sample);
 
-  /// Sum of the squares of a channel's samples, in fractions of the full scale.
+  /// The sum of the squares of a channel's samples, in fractions of the full scale.
   double energy(size_t channel) const { return energy_[channel]; }
-  /// Fraction of it above 30 Hz; 0 while there is none.
+  /// The fraction of the energy above 30 Hz; 0 without energy.
   double above_30_Hz(size_t channel) const;
-  /// The first channel that is sound for ears, by at least a second of samples that are felt:
-  /// a shorter part of a track may be a single step. -1: none.
+  /// The first channel that is audible sound, by at least a second of samples that are felt: a
+  /// shorter part of a track may be a single step. -1: none.
   int sound_channel() const;
 
  private:
@@ -52,7 +52,7 @@ const char* channel_name(size_t channel);
 double full_scale(size_t channel);
 /// " N" or " N m".
 const char* channel_unit(size_t channel);
-/// `value` with two significant digits, to be read and not to be computed with.
+/// `value` with two significant digits, for reading and not for computing.
 std::string rounded(double value);
 
 /// Statistics of one channel, in fractions of the full scale.
@@ -68,7 +68,7 @@ struct Summary {
   double largest_force_N = 0;
   double largest_torque_Nm = 0;
   double steepest_N_s = 0;  ///< largest rate of change of the force
-  /// Fraction of the time with at least kFeltForce_N, where torque counts as the force at the
+  /// The fraction of the time with at least kFeltForce_N, where torque counts as the force at the
   /// radius of the grip (size_N()).
   double felt = 0;
 };

@@ -12,13 +12,13 @@
 
 namespace spidar::tracks {
 
-/// Stored in the comment of the track, which FLAC, Matroska and WAV keep. Tracks that were made by
-/// hand have no notes.
+/// Notes on the film, in the comment of the track, which FLAC, Matroska and WAV keep. Handmade
+/// tracks have no notes.
 struct Notes {
-  FilmFingerprint film;  ///< that it was recorded from; empty: not known
-  /// Properties of spidarmotion with which it was recorded, in one line; empty for its defaults.
+  FilmFingerprint film;  ///< the source of the track; empty: unknown
+  /// The properties of spidarmotion for the recording, in one line; empty for the defaults.
   std::optional<std::string> settings;
-  /// The format that the track was converted from, whose length says nothing of the film; empty:
+  /// The format from which the track was converted, whose length is not that of the film; empty:
   /// none.
   std::string origin = {};
 };
@@ -26,7 +26,6 @@ struct Notes {
 /// Title, comment and full scale of a track. Owned by the caller.
 GstTagList* tags(const Notes& notes = {});
 
-/// Adds to `notes` what `tags` contain.
 void read_notes(const GstTagList* tags, Notes& notes);
 
 /// Makes `pad`, a linked source pad, send these tags in place of all others.
