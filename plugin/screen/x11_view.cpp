@@ -176,8 +176,8 @@ class X11View : public View {
   }
 
   /// Where ximagesrc cannot read, it repeats the old content of its buffers: several old pictures
-  /// in turn, whose motion would be felt. The debug window shows the film a second time. This probe
-  /// therefore makes both black, which is still and no film.
+  /// in turn, whose motion would be felt, so this probe drops them. The debug window shows the film
+  /// a second time, so this probe paints that window black, which is still and no film.
   static GstPadProbeReturn leave_out(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
     if (take_x11_failure()) return GST_PAD_PROBE_DROP;
     auto& self = *static_cast<X11View*>(user);

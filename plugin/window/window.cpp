@@ -26,15 +26,15 @@ namespace {
 
 constexpr const char* kNotOpen = "the debug window is not open";
 constexpr const char* kSilent = "the debug window does not answer";
-/// How long close() waits for the thread. It ends in two thirds of that, unless what it asks of the
-/// player does not return, which may wait for a lock of whoever closes the window.
+/// How long close() waits for the thread, which ends in two thirds of that, unless its request to
+/// the player does not return because that waits for a lock of whoever closes the window.
 constexpr std::chrono::milliseconds kLongestClose = 3 * Window::kPatience;
-/// Of what is sent at once; more waits only for a window that does not read.
+/// The most messages that are sent at once; more wait only for a window that does not read.
 constexpr size_t kMaxToSay = 1000;
 
 }  // namespace
 
-/// What the thread and the owner of a Window share; the thread may outlive the owner.
+/// The common data of the thread and the owner of a Window; the thread may outlive the owner.
 class Window::Session {
  public:
   explicit Session(std::shared_ptr<Source> source) : source_(std::move(source)) {}
@@ -44,12 +44,12 @@ class Window::Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
-  /// The thread, until the window is gone.
+  /// Runs the thread, until the window is closed.
   void run();
   void fail(const std::string& error);
 
   void close();
-  /// False when the thread does not end in kLongestClose.
+  /// Returns false when the thread does not end in kLongestClose.
   bool await_end();
   bool wants_frame() const { return is_asking_ && !is_full_; }
   bool give(const GstVideoFrame& frame, DrawnFrame report);
@@ -76,31 +76,31 @@ class Window::Session {
 
   const std::shared_ptr<Source> source_;
   const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  ///< −1: the system refuses it
-  std::atomic<bool> is_asking_{false};                       ///< the window is there
-  std::atomic<bool> is_full_{false};                         ///< there is no free slot
-  // The thread.
+  std::atomic<bool> is_asking_{false};                       ///< whether the window is there
+  std::atomic<bool> is_full_{false};                         ///< whether there is no free slot
+  // The thread uses these.
   bool has_failed_ = false;        ///< the window has reported why it cannot be opened
-  bool is_asked_ = false;          ///< a question waits for its answer
-  bool is_understood_ = true;      ///< what the window sends
-  uint32_t memory_at_window_ = 0;  ///< that was sent last
-  // The streaming thread.
+  bool is_asked_ = false;          ///< whether a request waits for its answer
+  bool is_understood_ = true;      ///< whether the window sends messages
+  uint32_t memory_at_window_ = 0;  ///< the last one that was sent
+  // The streaming thread uses these.
   uint32_t memories_ = 0;
 
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<PictureSlots> slots_;
-  std::deque<Waiting> frames_;   ///< that the window has not asked for yet
-  std::deque<ToWindow> to_say_;  ///< at once
+  std::deque<Waiting> frames_;   ///< frames that the window has not requested yet
+  std::deque<ToWindow> to_say_;  ///< messages to send at once
   bool is_closing_ = false;
   bool is_gone_ = false;
-  bool has_ended_ = false;  ///< the thread
+  bool has_ended_ = false;  ///< whether the thread has ended
   uint64_t pictures_asked_ = 0, pictures_taken_ = 0;
   std::string picture_error_;
 };
 
 // --- streaming thread --------------------------------------------------------------------------
 
-/// With the mutex held. Null when there is no memory.
+/// Call this with the mutex held. Returns null when there is no memory.
 std::shared_ptr<PictureSlots> Window::Session::slots_for(const GstVideoFrame& frame) {
   if (!slots_ || !slots_->fits(frame)) {
     slots_ = std::make_shared<PictureSlots>(++memories_, frame);
@@ -191,13 +191,13 @@ void Window::Session::watch() {
     has_left = channel.is_gone();
   }
   is_asking_ = false;
-  // One that is to close and has not left has had its time.
+  // The time of a window that must close and has not left is over.
   std::string how = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
   if (!is_understood) how = "is of another version than the plugin";
   finish(how);
 }
 
-/// The window was not even started.
+/// Reports that the window was not even started.
 void Window::Session::fail(const std::string& error) {
   has_failed_ = true;
   source_->warn("The debug window cannot be started: " + error + ".",
@@ -205,9 +205,9 @@ void Window::Session::fail(const std::string& error) {
   finish("");
 }
 
-/// Until the window has closed its end, or has had its time for that. False when it sends what is
-/// no message. A window that does not read is not listened to, so that what waits for it does not
-/// grow.
+/// Serves until the window has closed its end, or its time for that is over. Returns false when the
+/// window sends something other than messages. A window that does not read is not served, so that
+/// the queue to it does not grow.
 bool Window::Session::serve(Channel& channel) {
   std::optional<std::chrono::steady_clock::time_point> latest;
   while (is_understood_ && !channel.is_gone()) {
@@ -228,7 +228,7 @@ bool Window::Session::serve(Channel& channel) {
   return is_understood_ && !channel.is_not_understood();
 }
 
-/// What is to be sent at once.
+/// Sends the messages that do not wait for a request.
 void Window::Session::pass_on(Channel& channel) {
   std::deque<ToWindow> messages;
   {
@@ -236,7 +236,7 @@ void Window::Session::pass_on(Channel& channel) {
     messages.swap(to_say_);
   }
   for (const ToWindow& message : messages) {
-    // A picture shows all that came before.
+    // A picture shows everything sent before.
     if (std::holds_alternative<TakePicture>(message)) answer(channel);
     channel.send(to_bytes(message));
   }
@@ -252,7 +252,7 @@ void Window::Session::listen(Channel& channel) {
   }
 }
 
-/// The frames that have passed, and the state of the element.
+/// Sends the frames that have passed, and the state of the element.
 void Window::Session::answer(Channel& channel) {
   is_asked_ = false;
   std::deque<Waiting> frames;
@@ -311,7 +311,7 @@ void Window::Session::end_waiting(const std::string& error) {
   changed_.notify_all();
 }
 
-/// `how` the window ended; empty if as it should.
+/// `how` says how the window ended; empty if as it should.
 void Window::Session::finish(const std::string& how) {
   source_->lead_hand(std::nullopt);
   bool was_wanted = false;
@@ -345,7 +345,7 @@ Window::Window(std::shared_ptr<Source> source)
 void Window::close() {
   session_->close();
   if (!thread_.joinable()) return;
-  // Closed by its own person, the thread comes here itself.
+  // When its user closes the window, the thread itself comes here.
   const bool is_own = thread_.get_id() == std::this_thread::get_id();
   if (!is_own && session_->await_end()) {
     thread_.join();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A debug window from the player's side: started, fed, obeyed, closed.
 #pragma once
 
 #include <chrono>
@@ -18,7 +17,8 @@
 
 namespace spidar::window {
 
-/// Called on the thread of the Window only. messages.h describes the requests.
+/// What a window needs from the player, called on the thread of the Window only. messages.h
+/// describes the requests.
 class Source {
  public:
   virtual ~Source() = default;
@@ -31,19 +31,20 @@ class Source {
   virtual void choose(const std::optional<Eigen::Vector2d>& position) = 0;
   /// Saves the choices as rules, which hold from then on.
   virtual ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
-  /// Asks the player, which may not do it.
+  /// Requests this from the player, which may refuse.
   virtual void play(bool plays) = 0;
   /// Does nothing where the player cannot seek, as in live video.
   virtual void seek(int64_t to_ns) = 0;
-  /// The window cannot be opened, or has failed: `what` says what happened, `advice` what to do.
+  /// Tells that the window cannot be opened, or has failed: `what` says what happened, `advice`
+  /// what to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
-  /// The window is gone, and not because close was called.
+  /// Tells that the window is closed, but not by close().
   virtual void closed() = 0;
 };
 
-/// One window, which is a process of its own (spidar-window). Opening returns at once; what goes
-/// wrong then is reported by source->warn(). Neither a window that is slow nor one that crashes
-/// holds up the player, whose own use of GL, GLFW or X it does not touch.
+/// One window, which is a process of its own (spidar-window), from the player's side. Opening
+/// returns at once; source->warn() reports later errors. Neither a slow nor a crashing window
+/// delays the player, whose own use of GL, GLFW or X it does not touch.
 class Window {
  public:
   explicit Window(std::shared_ptr<Source> source);
@@ -55,21 +56,20 @@ class Window {
 
   // --- streaming thread, which waits for nothing here
 
-  /// Whether give() will find room for a picture.
+  /// Whether give() has a free slot for a picture.
   bool wants_frame() const;
-  /// Copies the frame. Returns false when it is left out because the window is slow or there is no
-  /// memory: the next one will do.
+  /// Copies the frame. Returns false when the frame is left out because the window is slow or there
+  /// is no memory.
   bool give(const GstVideoFrame& frame, DrawnFrame report);
 
   // --- any thread
 
-  /// Waits until the window is gone; after kPatience, it is killed. Called by the window's own
-  /// thread, it does not wait; nor for ever, should that thread wait for the caller.
+  /// Waits until the window is closed; after kPatience, it is killed. Does not wait when the
+  /// window's own thread calls this, nor for ever when that thread waits for the caller.
   void close();
-  /// Writes what the window shows, with all that it was given before, to a PNG file. Returns an
+  /// Writes what the window shows, with everything it was given before, to a PNG file. Returns an
   /// empty string, or why that fails.
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
-  /// Acts as if a person had made this input; for tests.
   void input(const UserInput& input);
 
  private:

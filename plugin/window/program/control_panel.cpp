@@ -14,7 +14,7 @@ namespace {
 /// first kFarLeft of it.
 constexpr double kMaxLinearRange = 1e6, kFarLeft = 0.1;
 constexpr double kTooltip_px = 340, kNameFraction = 0.4;
-/// Room for a value to the right of its slider: "0.0025 s/px".
+/// The space for a value to the right of its slider: "0.0025 s/px".
 constexpr double kValue_px = 84;
 
 /// "1 object", "2 objects".
@@ -22,7 +22,7 @@ std::string count_of(size_t count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
-/// As the description of a property has it: "…, in Hz: …"; a factor has none.
+/// Extracts the unit from the description of a property: "…, in Hz: …"; a factor has none.
 const char* unit_of(const Setting& setting) {
   constexpr std::pair<const char*, const char*> kUnits[] = {{", in newtons per metre", " N/m"},
                                                             {", in newtons", " N"},
@@ -36,8 +36,8 @@ const char* unit_of(const Setting& setting) {
   return "";
 }
 
-/// True when it was moved. The value is beside the slider, whose handle would be drawn over it;
-/// within is only what is being typed.
+/// Returns true when the slider was moved. The value is beside the slider, whose handle would be
+/// drawn over it; only a value that is being typed is inside.
 bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   const double range = setting.high - setting.low;
   const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
@@ -95,7 +95,7 @@ bool value_widget(const Brush& brush, const Setting& setting, double& value) {
   return number_widget(brush, setting, value);
 }
 
-/// Left of `panel`, so that it covers no widget in it.
+/// Explains to the left of `panel`, so that the text covers no widget in it.
 void explain(const Brush& brush, const Rect& panel, const Setting& setting) {
   if (!ImGui::IsItemHovered()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -109,7 +109,6 @@ void explain(const Brush& brush, const Rect& panel, const Setting& setting) {
   ImGui::EndTooltip();
 }
 
-/// One row of a table: name and widget.
 void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
                   ControlsActions& actions) {
   ImGui::PushID(setting.name.c_str());
@@ -128,7 +127,7 @@ void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
   ImGui::PopID();
 }
 
-/// What a viewer sets; all else is of interest to who knows how it works.
+/// A viewer sets these; the others are for people who know how the element works.
 bool is_basic(const Setting& setting) {
   constexpr std::array<const char*, 4> kNames{"motion", "max-force", "alpha", "touch"};
   return std::find(kNames.begin(), kNames.end(), setting.name) != kNames.end();
@@ -161,7 +160,7 @@ void draw_stop(const Brush& brush, const ElementState& state, ControlsActions& a
   ImGui::PopStyleColor(2);
 }
 
-/// The two settings, a button that takes everything back, and the presets.
+/// Draws the two settings, a button that undoes all changes, and the presets.
 void draw_choices(const Brush& brush, const Rect& panel, const ElementState& state,
                   const TwoSettings& settings, ControlsActions& actions) {
   ImGui::AlignTextToFramePadding();
@@ -208,7 +207,7 @@ ControlsActions draw_controls(const Brush& brush, const Rect& panel, const Eleme
   ImGui::Begin("controls", nullptr, kFixed | ImGuiWindowFlags_NoScrollbar);
   draw_stop(brush, state, actions);
   draw_choices(brush, panel, state, settings, actions);
-  // Only what is below scrolls.
+  // The part below scrolls.
   ImGui::BeginChild("scrolled");
   draw_table(brush, panel, state, true, actions);
   if (ImGui::CollapsingHeader("Advanced")) draw_table(brush, panel, state, false, actions);
@@ -224,7 +223,7 @@ void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& 
       ImGuiCond_Always, {1, 0});
   ImGui::SetNextWindowBgAlpha(0.8F);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {brush.px(8), brush.px(4)});
-  // Else a box without a check cannot be seen on a picture.
+  // Without a border, an empty check box cannot be seen on a picture.
   ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, brush.px(1.5));
   ImGui::Begin("switches", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -264,7 +263,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   }
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 
-  // From the right, as much as there is room for.
+  // Draws from the right, as much as fits.
   std::vector<std::string> parts;
   char text[96];
   std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(report.stamp.running_ns));
@@ -279,7 +278,8 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
     const TickRecord& last = state.device->last;
     parts.push_back(std::string("device ") + to_string(last.device) +
                     (last.playing ? "" : ", film at rest"));
-    // Of a thousand a second; some are late on every machine that does other things, too.
+    // A thousand forces a second are due; some are late on every machine that does other things,
+    // too.
     if (state.device->overruns > 0) parts.push_back(count_of(state.device->overruns, "late force"));
   }
   double x = panel.right() - 10 * brush.scale;

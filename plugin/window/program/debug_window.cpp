@@ -23,13 +23,13 @@
 namespace spidar::window {
 namespace {
 
-/// At a scale of 1: in what is smaller, text is cut.
+/// A smaller window cuts text, at a scale of 1.
 constexpr int kMinWidth = 560, kMinHeight = 380;
 constexpr double kNote_s = 4;
-/// So long after a frame the plots stand still, so that the end of a film stays to be looked at.
+/// After this time without a frame the plots stand still, so that the end of a film stays visible.
 constexpr double kIdle_s = 1;
-/// Of text, in the coordinates of the window: where a screen has several pixels to one of them, as
-/// with Wayland, the frame buffer has them already.
+/// The scale of text in the coordinates of the window: where a screen has several pixels to one of
+/// them, as with Wayland, the frame buffer already has these pixels.
 double screen_scale(GLFWwindow* window) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window, &x, &y);
@@ -40,15 +40,16 @@ double screen_scale(GLFWwindow* window) {
   return std::clamp(std::max(x, y) / ratio, 0.5, 8.0);
 }
 
-/// CLOCK_MONOTONIC, as the ticks of the haptic loop have it.
+/// CLOCK_MONOTONIC, as in the ticks of the haptic loop.
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Of pictures, for mark_written().
+/// The maker of pictures, for mark_written().
 const std::string kMaker = "spidar-window";
 
-/// Pixels of three bytes, the lowest row first. Returns empty, or why the file cannot be written.
+/// Writes pixels of three bytes, the lowest row first. Returns an empty text, or why the file
+/// cannot be written.
 std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                       const std::string& path) {
   std::error_code none;
@@ -84,7 +85,7 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
   glfwWindowHint(GLFW_FOCUS_ON_SHOW, GLFW_FALSE);
-  // By which spidar-feel --screen leaves it out (kOwnClass); GLFW sets both or none.
+  // spidar-feel --screen leaves out this class (kOwnClass); GLFW sets both names or none.
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "spidar-window");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "spidar-window");
   title_ = state_.name;
@@ -95,7 +96,7 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
     throw std::runtime_error(why ? why : "no window");
   }
   glfwMakeContextCurrent(window_);
-  glfwSwapInterval(0);  // the program keeps the pace itself
+  glfwSwapInterval(0);  // the program keeps its own pace
   ImGui::CreateContext();
   screen_scale_ = screen_scale(window_);
   glfwSetWindowSizeLimits(window_, static_cast<int>(kMinWidth * screen_scale_),
@@ -111,13 +112,13 @@ DebugWindow::DebugWindow(PlayerLink& link) : link_(link), state_(link.state()) {
     if (action == GLFW_RELEASE || ImGui::GetIO().WantTextInput) return;
     static_cast<DebugWindow*>(glfwGetWindowUserPointer(window))->on_key(key);
   });
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the one above, too
+  ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls the callback above, too
   ImGui_ImplOpenGL3_Init("#version 330 core");
   texture_.emplace();
   relief_.emplace();
 }
 
-/// Between two frames of the window.
+/// Call this between two frames of the window.
 void DebugWindow::set_scale(double scale) {
   scale_ = scale;
   ImGui::GetIO().Fonts->Clear();
@@ -159,7 +160,7 @@ void DebugWindow::read() {
   settings_.update(state_.settings);
   const uint32_t epoch_before = report_.stamp.epoch;
   const std::string film_before = report_.film.name();
-  // The picture of the moment at which the device is: that on the screen.
+  // The picture on the screen is that of the device's moment.
   const bool plays = state_.device && state_.device->last.playing;
   std::optional<QueuedFrame> frame =
       link_.frames().show(plays ? std::optional(state_.device->last.running_ns) : std::nullopt);
@@ -180,7 +181,7 @@ void DebugWindow::read() {
     follow_title();
     sightings_.update(report_);
     follow_choices(film_before);
-    // What was learnt is not of it.
+    // The recorded data belong to the previous stream.
     if (is_anew) timeline_.clear();
   }
   record(frame.has_value());
@@ -210,7 +211,7 @@ ShownPicture DebugWindow::shown_picture() const {
   picture.detail = detail_;
   picture.requested = requested_;
   if (state_.device) {
-    // The loop is between two frames; the arrow of this one has no other length to the eye.
+    // The loop is between two frames; below this difference, the arrow of the frame looks the same.
     constexpr double kUnseen = 0.2;
     const Eigen::Vector3d& asked_N = report_.frame.wrench.force_N;
     const TickRecord& last = state_.device->last;
@@ -224,7 +225,7 @@ ShownPicture DebugWindow::shown_picture() const {
   if (state_.device) picture.touch = touch_mark(report_.touch, state_.device->last);
   if (texture_->empty()) return picture;
   // Dear ImGui's backend for OpenGL takes the name of a texture for its identifier, which is a
-  // pointer or, since 1.91.4, a number: a cast as in C makes either.
+  // pointer or, since 1.91.4, a number: a C cast makes either.
   picture.texture = (ImTextureID)uintptr_t{texture_->id()};
   if (!report_.touch.shading.empty()) picture.relief = (ImTextureID)uintptr_t{relief_->id()};
   picture.frame_width = texture_->frame_width();
@@ -268,7 +269,7 @@ void DebugWindow::draw_panels(int width, int height) {
 void DebugWindow::draw() {
   glfwGetFramebufferSize(window_, &width_, &height_);
   read();
-  if (width_ <= 0 || height_ <= 0) return;  // minimised
+  if (width_ <= 0 || height_ <= 0) return;  // the window is minimised
   int window_width = 0, window_height = 0;
   glfwGetWindowSize(window_, &window_width, &window_height);
   const double scale = text_scale(screen_scale_, window_width, window_height);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The window of GLFW and what is drawn in it.
 #pragma once
 
 #include <map>
@@ -21,23 +20,23 @@ namespace spidar::window {
 
 class DebugWindow {
  public:
-  /// `link` has answered once. Throws std::runtime_error when OpenGL 3.3 or a window cannot be had.
+  /// `link` must have answered once. Throws std::runtime_error without OpenGL 3.3 or a window.
   explicit DebugWindow(PlayerLink& link);
   ~DebugWindow();
   DebugWindow(const DebugWindow&) = delete;
   DebugWindow& operator=(const DebugWindow&) = delete;
 
-  /// One frame of the window, which present() brings to the screen.
+  /// Draws one frame of the window, which present() brings to the screen.
   void draw();
   void present();
-  /// Closed by the user.
+  /// Whether the user has closed the window.
   bool is_done() const;
-  /// Writes what was drawn and not yet presented to a PNG file. Returns an empty string, or why it
-  /// cannot be written.
+  /// Writes what was drawn but not yet presented to a PNG file. Returns an empty string, or why the
+  /// file cannot be written.
   std::string save(const std::string& path) const;
 
   void on_key(int key);
-  /// Acts on input in place of the user's.
+  /// Processes input in place of the user's.
   void process(const UserInput& input);
 
  private:
@@ -71,7 +70,7 @@ class DebugWindow {
   double screen_scale_ = 1, scale_ = 1;  ///< of text: that of the screen, and in this window
   Fonts fonts_;
   std::optional<PictureTexture> texture_, relief_;
-  int width_ = 0, height_ = 0;  ///< of the frame buffer drawn last
+  int width_ = 0, height_ = 0;  ///< of the last frame buffer
 
   ElementState state_;
   SharedPicture picture_;
@@ -81,7 +80,7 @@ class DebugWindow {
   int shown_width_ = 0, loaded_width_ = 0;  ///< of the picture in the window, and its texture
   MouseHand hand_;
   ObjectClick click_;
-  /// The object of a click of which no frame knows yet, see ShownPicture; and the click before it.
+  /// The object of a click that no frame contains yet, see ShownPicture; and the click before it.
   std::optional<uint32_t> requested_;
   uint32_t click_before_ = 0;
   TwoSettings settings_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// What the user does to a debug window, and chooses of the objects in the picture.
+// The user's input to a debug window, and choices of objects in the picture.
 #include <cmath>
 #include <cstdio>
 #include <imgui.h>
@@ -105,13 +105,12 @@ void DebugWindow::draw_controls_and_use(const Brush& brush, const Rect& panel) {
   if (actions.settings) use_settings(*actions.settings);
 }
 
-/// Only a simulated device has a hand.
 bool DebugWindow::offers_hand() const {
   return state_.device && state_.device->has_hand;
 }
 
-/// The track that is played, and what a click does, until the user has clicked once; while the hand
-/// touches the picture, how deep it is.
+/// Returns the track that is played, and what a click does, until the user has clicked once; while
+/// the hand touches the picture, how deep it is.
 std::string DebugWindow::hint() const {
   if (hand_.holds() && report_.touch.on) {
     char text[96];
@@ -139,7 +138,7 @@ void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
   link_.lead_hand(hand_.update(mouse, picture, pointer));
 }
 
-/// The wheel shows more or less of the last seconds.
+/// The wheel changes how many seconds the plots show.
 void DebugWindow::use_plots(const Mouse& mouse, const Layout& layout) {
   const bool is_over =
       !mouse.taken && (layout.force.has(mouse.at_px) || layout.speed.has(mouse.at_px));
@@ -153,7 +152,7 @@ SceneChoices& DebugWindow::choices() {
 void DebugWindow::follow_choices(const std::string& film_before) {
   bool has_ended = false;
   if (film_before != report_.film.name()) has_ended = choices_[film_before].end_scene();
-  // Without this, nothing would be felt until the object is given up.
+  // Otherwise nothing would be felt until the user releases the object.
   if (choices().update(report_) || has_ended) link_.choose(std::nullopt);
   if (const std::optional<int64_t> lost_ns = choices().take_lost()) {
     constexpr int64_t kTenth_ns = 100'000'000;
@@ -182,7 +181,7 @@ bool DebugWindow::has_unsaved_choices() const {
   return false;
 }
 
-/// Of every film for which `is_due` holds.
+/// Saves the choices of every film for which `is_due` holds.
 void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
   for (auto& [film, choices] : choices_) {
     if (film.empty() || !(choices.*is_due)()) continue;
@@ -202,7 +201,7 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
   if (actions.seek_ns) link_.seek(*actions.seek_ns);
 }
 
-/// Removing the choice that is felt lets go of its object.
+/// Removing the choice that is felt releases its object.
 void DebugWindow::remove_choice(const FeelRule& rule) {
   const int64_t now_ns = report_.stamp.stream_ns;
   if (rule.from_ns <= now_ns && now_ns < rule.to_ns && report_.click != 0) {

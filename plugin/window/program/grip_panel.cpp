@@ -12,13 +12,13 @@ namespace spidar::window {
 namespace {
 
 constexpr ImU32 kGripColor = IM_COL32(88, 97, 116, 255);
-/// Of the view: the largest force as a fraction of the panel's smaller side.
+/// The length of the largest force, as a fraction of the panel's smaller side.
 constexpr double kForceFraction = 0.3;
 
 constexpr ImU32 kRangeColor = IM_COL32(38, 43, 53, 255);
-/// Of a string's bar: half of its width, as a fraction of its room.
+/// Half of the width of a string's bar, as a fraction of its space.
 constexpr double kHalfBar = 0.25;
-/// Of the axis, where a device reports nothing of its motors.
+/// The end of the axis where a device reports nothing of its motors.
 constexpr double kLeastTension_N = 0.1;
 
 double fraction_of_range(const DeviceView& device, int string) {
@@ -42,7 +42,7 @@ struct GripView {
   }
 };
 
-/// The ball that the hand holds, and the rods that the strings are tied to.
+/// Draws the ball that the hand holds, and the rods to which the strings are tied.
 void draw_grip_body(const GripView& view, const DeviceView& device) {
   const ImVec2 centre = view.at(Eigen::Vector3d::Zero());
   for (int i = 0; device.has_strings && i < device.geometry.count; ++i) {
@@ -66,7 +66,7 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
                        color, brush.px(1.2 + 2.5 * std::clamp(fraction, 0.0, 1.0)));
     brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
-    // Its number, beside the exit.
+    // The number of the string stands beside its exit.
     const std::string number = std::to_string(i);
     const ImVec2 size = text_size(brush.fonts.small, number);
     const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;
@@ -76,8 +76,8 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
   }
 }
 
-/// A force at the hand, as a line in space, with its newtons and `which` force it is, within the
-/// panel. Without a name it is a faint line.
+/// Draws a force at the hand, as a line in space, with its newtons and the name `which`, within the
+/// panel. Without a name the line is faint.
 void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, double most_N,
                 const char* which) {
   const double force_N = wrench.force_N.norm();
@@ -108,7 +108,6 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
              text);
 }
 
-/// The directions of the device in a corner.
 void draw_compass(const Brush& brush, const Rect& panel, const GripProjection& project) {
   const double length = std::min(20 * brush.scale, 0.14 * panel.height);
   const double name = text_size(brush.fonts.small, kAxisNames[2]).x;  // to the left
@@ -139,7 +138,7 @@ void draw_grip(const Brush& brush, const Rect& panel, const DeviceView& device, 
     note += ", string " + std::to_string(last.faulty_string) + " at fault";
   }
   const Rect content = draw_panel(brush, panel, "Grip", note);
-  // Lengths in a panel without room are zero, and are divided by.
+  // Lengths in an empty panel are zero, and the code below divides by them.
   if (content.width <= 0 || content.height <= 0) return;
   brush.list.PushClipRect(upper_left(panel), lower_right(panel), true);
   const GripProjection project(content, device.geometry);

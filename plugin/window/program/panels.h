@@ -27,11 +27,12 @@ struct ShownPicture {
   double arrow_scale = 1;
   double max_force_N = 0;
   std::optional<TouchMark> touch;
-  ImTextureID relief{};  ///< light and shadow of what is touched, as the picture is shown; or none
-  /// The object that was clicked and is not felt yet, or 0: the one that is felt is let go.
+  /// Light and shadow of the touched relief, as the picture is shown; or none.
+  ImTextureID relief{};
+  /// The clicked object that is not felt yet; 0: the felt object is released.
   std::optional<uint32_t> requested;
-  bool detail = false;  ///< every point, new and lost points, all boxes; else they are faint
-  /// The force that the hand gets, unless it differs from the force that the frame asks for.
+  bool detail = false;  ///< every point, new and lost points, all boxes; otherwise they are faint
+  /// The force that the hand gets, unless it differs from the force of the frame.
   std::optional<double> delivered_N;
 };
 /// The part of the window that shows the visible part of the frame.
@@ -39,58 +40,51 @@ Rect shown_rect(const Rect& panel, const ShownPicture& picture, const DrawnFrame
 void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& picture,
                   const DrawnFrame& report);
 
-/// Frame, strings (the thicker the harder they pull), the grip and its force. `is_as_asked`: the
-/// picture has the same force, so that neither needs a name.
+/// Draws frame, strings (thicker with more tension), the grip and its force. `is_as_asked` says
+/// that the picture has the same force, so that neither needs a name.
 void draw_grip(const Brush& brush, const Rect& panel, const DeviceView& device, bool is_as_asked);
-/// The tension of each string as a bar.
 void draw_tensions(const Brush& brush, const Rect& panel, const DeviceView& device);
 
-/// The axis fits what is felt.
 void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline);
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline);
 /// Also draws the curve of the settings that are not in use, if they differ.
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
                const ControllerSettings& controller, const TwoSettings& settings);
 
-/// At the lower edge of the picture: what the mouse does.
+/// Draws what the mouse does, at the lower edge of the picture.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
 
-/// The user's actions on the choices.
 struct TimelineActions {
-  std::optional<FeelRule> removed;  ///< this one is to be removed
-  std::optional<int64_t> seek_ns;   ///< the film is to go on from there
-  bool toggles = false;             ///< the film is to play, or to pause
+  std::optional<FeelRule> removed;  ///< the choice to remove
+  std::optional<int64_t> seek_ns;   ///< where the film must continue
+  bool toggles = false;             ///< whether the film must play, or pause
   bool saves = false;
 };
-/// The last minute, with a button that pauses the film, plays it, or plays it again. Below it the
-/// film with its choices, which can be saved if there are some that are not.
+/// Draws the last minute, with a button that pauses the film, plays it, or plays it again. Below is
+/// the film with its choices, and a button to save new choices.
 TimelineActions draw_timeline(const Brush& brush, const Rect& panel, const Timeline& timeline,
                               const ElementState& state, const FilmStrip& strip, bool has_unsaved);
 
-/// `note`: the window's message at the moment; may be empty.
+/// `note` is the present message of the window; may be empty.
 void draw_status(const Brush& brush, const Rect& panel, const ElementState& state,
                  const DrawnFrame& report, const std::string& note);
 
-/// Switches in the upper right corner of the picture.
 void draw_switches(const Brush& brush, const Rect& picture, bool& detail, bool& keys);
-/// What the keys do, over the picture.
 void draw_keys(const Brush& brush, const Rect& picture);
 
-/// The user's actions on the settings.
 struct ControlsActions {
   std::vector<std::pair<std::string, double>> changes;  ///< by name
   std::optional<std::string> preset;
-  std::optional<size_t> settings;  ///< which are to be in use, see TwoSettings::use()
+  std::optional<size_t> settings;  ///< the settings to use, see TwoSettings::use()
   bool resets = false;
 };
-/// The button for rest, which stays in sight; the two settings, presets, and widgets for each
-/// setting.
+/// Draws the button that stops the force, which stays visible; the two settings, presets, and
+/// widgets for each setting.
 ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
                               const TwoSettings& settings);
 
-/// Shows a tooltip of the widget drawn last above `panel`, so that it does not cover what is in it.
+/// Shows a tooltip of the last widget above `panel`, so that it does not cover the content.
 void explain_above(const Rect& panel, const char* text);
 
-/// The mouse in the frame of the window that is drawn, from Dear ImGui.
 Mouse read_mouse();
 }  // namespace spidar::window

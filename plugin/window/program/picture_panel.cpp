@@ -31,7 +31,6 @@ struct Overlay {
   bool is_felt(uint32_t object) const {
     return std::find(report.felt.begin(), report.felt.end(), object) != report.felt.end();
   }
-  /// Upper left and lower right corner of an object's box.
   std::pair<Eigen::Vector2d, Eigen::Vector2d> box(const MovingObject& object) const {
     const Eigen::AlignedBox2d box = box_px(object, report.film_part());
     return {map(box.min()), map(box.max())};
@@ -56,7 +55,7 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margi
 void draw_points(const Overlay& over, const ArrowStyle& style) {
   const std::vector<OwnedPoint>& points = over.report.points;
   const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
-  std::vector<Arrow> arrows = point_arrows(points, style, at_px);  // one for each
+  std::vector<Arrow> arrows = point_arrows(points, style, at_px);  // one for each point
   for (size_t i = 0; i < arrows.size(); ++i) {
     const bool is_felt = points[i].owner == PointOwner::kObject && over.is_felt(points[i].object);
     if (!over.picture.detail) {
@@ -84,7 +83,7 @@ void draw_points(const Overlay& over) {
   }
 }
 
-/// The part of the picture that the film is in, where that is not all of it.
+/// Draws the film area, unless that is the whole picture.
 void draw_area(const Overlay& over) {
   const PicturePart film = over.report.film_part();
   const Eigen::Vector2d corner(film.x, film.y), half(0.5, 0.5);
@@ -98,7 +97,7 @@ void draw_objects(const Overlay& over) {
   for (const MovingObject& object : over.report.frame.objects) {
     if (object.points == 0) continue;
     const auto [low, high] = over.box(object);
-    // A click is answered before the next frame has come, and while the film is paused.
+    // A click has an effect before the next frame comes, and while the film is paused.
     const std::optional<uint32_t>& requested = over.picture.requested;
     const bool is_felt =
         requested.value_or(0) != 0 ? *requested == object.id : over.is_felt(object.id);
@@ -119,7 +118,8 @@ void draw_objects(const Overlay& over) {
   }
 }
 
-/// In newtons and `which` force it is, `along` from `beyond`, or where the picture has room.
+/// Writes newtons and the name `which` of a force, `along` from `beyond`, or where the picture has
+/// space.
 void draw_size(const Overlay& over, double force_N, const char* which,
                const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
   if (force_N < kFeltForce_N) return;
@@ -138,7 +138,7 @@ void draw_size(const Overlay& over, double force_N, const char* which,
              text);
 }
 
-/// False when it is too short for an arrow.
+/// Returns false when the force is too small for an arrow.
 bool draw_force(const Overlay& over, const Wrench& wrench, double shown_N, const char* which,
                 const Eigen::Vector2d& from_px, ArrowStyle style) {
   style.centre_px = from_px;
@@ -146,7 +146,7 @@ bool draw_force(const Overlay& over, const Wrench& wrench, double shown_N, const
   if (!felt) return false;
   draw_arrow(over.brush, *felt, IM_COL32(0, 0, 0, 255), over.brush.px(1.75));
   draw_arrow(over.brush, *felt, color_of(felt->color, 255));
-  // Beyond the tip.
+  // The number stands beyond the tip.
   draw_size(over, shown_N, which, felt->tip_px, (felt->tip_px - felt->tail_px).normalized());
   return true;
 }
@@ -174,7 +174,7 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
 }
 
-/// It is of the picture as it is shown, and this one is as it is stored.
+/// The relief belongs to the shown picture, and the texture has the stored one.
 void draw_relief(const Brush& brush, const Rect& shown, const ShownPicture& picture,
                  const Orientation& turn) {
   const auto at = [&](double x, double y) { return im(turn.displayed_position({x, y})); };
@@ -255,7 +255,7 @@ void draw_keys(const Brush& brush, const Rect& picture) {
   }
   const double w = names + width + 3 * margin, h = kKeys.size() * line + 2 * margin;
   const double x = std::max(picture.x, picture.x + (picture.width - w) / 2);
-  // In the middle, or below the switches.
+  // The text stands in the middle, or below the switches.
   const double room = std::max(picture.height - h, 0.0);
   const double y = picture.y + (room / 2 < 44 * brush.scale ? room : room / 2);
   brush.list.AddRectFilled(im(x, y), im(x + w, y + h), IM_COL32(12, 14, 18, 225), brush.px(6));

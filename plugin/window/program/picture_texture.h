@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A frame of video as a texture.
 #pragma once
 
 #include <algorithm>
@@ -34,8 +33,8 @@ class PictureTexture {
   PictureTexture(const PictureTexture&) = delete;
   PictureTexture& operator=(const PictureTexture&) = delete;
 
-  /// Converts to RGB in the frame's own colorimetry, scaled down when it is more than `most_width`
-  /// pixels wide, and uploads it. False when the frame cannot be converted: the texture stays.
+  /// Converts a frame to RGB in its own colorimetry, scaled down to at most `most_width` pixels,
+  /// and uploads it. Returns false when the frame cannot be converted: the texture stays.
   bool load(const SharedPicture& picture, int most_width) {
     const GstVideoInfo& info = picture.info();
     const int frame_width = GST_VIDEO_INFO_WIDTH(&info),
@@ -46,7 +45,7 @@ class PictureTexture {
     GstVideoFrame source, target;
     if (!prepare(info, width, height)) return false;
     const gsize bytes = GST_VIDEO_INFO_SIZE(&info);
-    // Read only: its pixels stay as they are.
+    // Read-only, so that the pixels stay as they are.
     const Ref<GstBuffer> buffer(gst_buffer_new_wrapped_full(GST_MEMORY_FLAG_READONLY,
                                                             const_cast<uint8_t*>(picture.pixels()),
                                                             bytes, 0, bytes, nullptr, nullptr));
@@ -68,7 +67,7 @@ class PictureTexture {
   /// Loads the shading of a relief, to lie over a picture: shadow darkens it, and light brightens
   /// it.
   void load_shading(const std::string& shading) {
-    constexpr int kLevel = 128, kPictureStays = 3;  // a third of the picture is always seen
+    constexpr int kLevel = 128, kPictureStays = 3;  // a third of the picture always shows
     std::vector<uint8_t> rgba;
     rgba.reserve(4 * shading.size());
     for (const char cell : shading) {
@@ -80,7 +79,7 @@ class PictureTexture {
     upload(rgba.data(), touch::HeightField::kColumns, touch::HeightField::kRows);
   }
 
-  /// RGBA, rows from the top, without padding.
+  /// Uploads RGBA, rows from the top, without padding.
   void upload(const void* rgba, int width, int height) {
     glBindTexture(GL_TEXTURE_2D, id_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
@@ -93,7 +92,7 @@ class PictureTexture {
     height_ = height;
   }
 
-  /// Properties of the frame that the texture was made from.
+  /// Properties of the frame of the texture.
   int frame_width() const { return frame_width_; }
   int frame_height() const { return frame_height_; }
   double pixel_aspect() const { return pixel_aspect_; }

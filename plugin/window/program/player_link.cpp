@@ -16,7 +16,7 @@ constexpr std::chrono::seconds kSavePatience{2};
 }  // namespace
 
 void FrameQueue::add(QueuedFrame frame) {
-  // Without a flush, those of the run before are still shown first.
+  // Without a flush, the frames of the previous run are still shown first.
   if (!waiting_.empty()) {
     const FrameStamp &now = frame.report.stamp, &before = waiting_.back().report.stamp;
     if (now.epoch != before.epoch && now.running_ns <= before.running_ns) waiting_.clear();
@@ -36,7 +36,7 @@ std::optional<QueuedFrame> FrameQueue::show(std::optional<int64_t> running_ns) {
   return shown;
 }
 
-/// Until something has come. False when the time is over, or the player is gone.
+/// Waits for a message. Returns false when the time is over, or the player is gone.
 bool PlayerLink::wait(std::chrono::steady_clock::time_point until) {
   while (!channel_->is_gone()) {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -67,7 +67,7 @@ void PlayerLink::receive() {
 
 void PlayerLink::ask(std::chrono::milliseconds patience) {
   if (is_over()) return;
-  // One question at a time: the answer to an earlier one is as good.
+  // One request at a time: the answer to an earlier one is as good.
   if (is_answered_ || state_.name.empty()) send(Ask());
   is_answered_ = false;
   const std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + patience;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The player as its window sees it, through the socket between them.
 #pragma once
 
 #include <chrono>
@@ -24,48 +23,46 @@ struct QueuedFrame {
   DrawnFrame report;
 };
 
-/// The element sees a frame before the sink shows it, and the grip feels it when the sink does:
-/// what a window draws beside the grip waits here until then.
+/// The element sees a frame before the sink shows it, and the grip feels it when the sink shows it:
+/// frames wait here until then to be drawn beside the grip.
 class FrameQueue {
  public:
   /// With more frames, as between the element and a sink with a long queue, the oldest is shown
   /// although it is not on the screen yet.
   static constexpr size_t kMax = 8;
 
-  /// An earlier running time than before is another stream, or a seek: all that waits is forgotten.
+  /// An earlier running time than before means another stream or a seek: all waiting frames are
+  /// dropped.
   void add(QueuedFrame frame);
-  /// The newest frame that is on the screen at this running time; without one, while nothing is
-  /// felt, the newest of all. Nothing when there is no other than before.
+  /// Returns the newest frame on the screen at this running time; without a running time, while
+  /// nothing is felt, the newest of all. Nothing when there is no other frame than before.
   std::optional<QueuedFrame> show(std::optional<int64_t> running_ns);
 
  private:
   std::deque<QueuedFrame> waiting_;
 };
 
-/// One thread.
+/// The player as its window sees it, through the socket between them. One thread.
 class PlayerLink {
  public:
-  /// Takes over the socket.
   explicit PlayerLink(int socket)
       : channel_(std::make_shared<Channel>(socket, Channel::kFromPlayer)) {}
 
-  /// Asks for what is to be drawn next, and waits for the answer, no longer than `patience`.
+  /// Requests what to draw next, and waits for the answer, no longer than `patience`.
   void ask(std::chrono::milliseconds patience);
-  /// Waits for `duration`, but not when the window is to close or to write its picture.
+  /// Waits for `duration`, but not when the window must close or write its picture.
   void rest(std::chrono::milliseconds duration);
 
-  /// The player has closed the window, or is gone.
+  /// Whether the player has closed the window, or is gone.
   bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }
-  /// Whether the player sends what is no message, as one of another version does.
+  /// Whether the player sends something other than messages, as one of another version does.
   bool is_not_understood() const { return is_not_understood_ || channel_->is_not_understood(); }
 
-  /// The state in the last answer.
   const ElementState& state() const { return state_; }
-  /// The ticks in all answers since the last call.
   std::vector<ForceTick> take_ticks() { return std::exchange(ticks_, {}); }
   FrameQueue& frames() { return frames_; }
   std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }
-  /// The file into which the next drawing is to be written.
+  /// The file for a picture of the next drawing.
   std::optional<std::string> wanted_picture() const { return wanted_picture_; }
   /// Tells the element whether the picture was written, see PictureTaken.
   void picture_taken(const std::string& error);
@@ -76,7 +73,7 @@ class PlayerLink {
   void choose(const std::optional<Eigen::Vector2d>& position) { send(ChooseObject{position}); }
   void play(bool plays) { send(PlayFilm{plays}); }
   void seek(int64_t to_ns) { send(SeekFilm{to_ns}); }
-  /// Waits for the answer, but not for long.
+  /// Waits briefly for the answer.
   ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits);
   void cannot_open(const std::string& what, const std::string& advice);
 

@@ -22,7 +22,7 @@ Plot::Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotA
   const double gap = kGap_px * brush.scale, text = brush.fonts.small->FontSize;
   const double left = std::min(widest + gap, area_.width);
   const double below = std::min(text + gap, area_.height);
-  // Above: the unit of y; on the right: half of the last label.
+  // The unit of y needs space above; half of the last label needs space on the right.
   const double above = std::min(text + gap, area_.height - below);
   area_ = {area_.x + left, area_.y + above, std::max(area_.width - left - 2 * gap, 1.0),
            std::max(area_.height - above - below, 1.0)};
@@ -42,14 +42,14 @@ void Plot::draw_axes(const std::string& x_unit, const std::string& y_unit) const
   draw_text(brush_, font, im(area_.x, area_.y - font->FontSize - gap), kMutedColor,
             has_room ? y_unit : y_unit.substr(0, y_unit.find(' ')));
   const float unit_x = static_cast<float>(area_.right()) - text_size(font, x_unit).x;
-  float free_x = 0;  // to the right of the labels so far
+  float free_x = 0;  // to the right of the previous labels
   std::string last = x_unit;
   for (const double tick : x_.ticks()) {
     const ImVec2 low = at(tick, y_.low);
     brush_.list.AddLine(low, at(tick, y_.high), kGridColor);
     const std::string label = x_.label(tick);
     const float width = text_size(font, label).x;
-    // A last label for which the unit leaves no room stands before it.
+    // A last label without space beside the unit stands before it.
     if (low.x + width / 2 + gap > unit_x) {
       if (unit_x - width - gap > free_x) last = label + " " + x_unit;
       continue;
@@ -130,7 +130,7 @@ void Plot::dot(double x, double y, ImU32 color) const {
 void Plot::legend(const std::vector<std::pair<const char*, ImU32>>& keys) const {
   const ImFont* font = brush_.fonts.small;
   const float gap = brush_.px(kGap_px), stroke = brush_.px(12);
-  // To the right of the unit; names for which there is no room are left out, the last ones first.
+  // The names stand to the right of the unit; the last ones are left out when there is no space.
   const float room = static_cast<float>(area_.width) - unit_width_ - 2 * gap;
   float width = 0;
   size_t count = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A plot with axes, grid and legend, drawn into a rectangle.
 #pragma once
 
 #include <optional>
@@ -21,27 +20,27 @@ struct PlotSpan {
 
 class Plot {
  public:
-  /// Axes with their labels along the left and lower edge of `panel`; units stand at their ends.
+  /// Draws axes with labels along the left and lower edge of `panel`, and units at their ends.
   Plot(const Brush& brush, const Rect& panel, const PlotAxis& x, const PlotAxis& y,
        const std::string& x_unit, const std::string& y_unit);
 
-  /// Line through points in order; what lies beyond the range is cut off, and a small triangle at
-  /// the edge says where a value is above it.
+  /// Draws a line through points in order, cut off beyond the range; a small triangle at the edge
+  /// shows where a value is above it.
   void line(const std::vector<Eigen::Vector2d>& points, ImU32 color, double width_px = 1.6) const;
-  /// Band from the lowest to the highest value in each part of the width, never thinner than a line
-  /// of `width_px`.
+  /// Draws a band from the lowest to the highest value in each part of the width, at least
+  /// `width_px` thick.
   void band(const std::vector<PlotSpan>& spans, ImU32 color, double width_px = 1.6) const;
   void upright(double x, ImU32 color) const;
   void dot(double x, double y, ImU32 color) const;
-  /// Names beside each other at the upper right, in their colours, as many as there is room for.
+  /// Draws names beside each other at the upper right, in their colours, as many as fit.
   void legend(const std::vector<std::pair<const char*, ImU32>>& keys) const;
 
   const Rect& area() const { return area_; }
   ImVec2 at(double x, double y) const;
-  /// Where the mouse is on the x axis, with a line there; nothing while it is elsewhere.
+  /// The mouse's position on the x axis, where a line is drawn; nothing while the mouse is
+  /// elsewhere.
   std::optional<double> hovered_x() const;
 
-  /// How many steps fit on an axis of this length.
   static int steps_across(const Brush& brush, double width_px);
   static int steps_up(const Brush& brush, double height_px);
 

@@ -34,7 +34,6 @@ std::vector<Eigen::Vector2d> series(const Timeline& timeline, const Value& value
   return points;
 }
 
-/// Along one axis, in each pixel of the width.
 std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Index axis,
                             Eigen::Vector3d ForceColumn::*low_N,
                             Eigen::Vector3d ForceColumn::*high_N) {
@@ -45,7 +44,7 @@ std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Inde
   return all;
 }
 
-/// Beside the mouse: what was delivered in this pixel's width, where it is largest.
+/// Shows, beside the mouse, the largest delivered force in this pixel's width.
 void tell_force(double at_s, const ForceColumn& column) {
   if (column.is_empty) return;
   std::string text = number("%.2f s", at_s) + number(": %.2f N", column.most_N);
@@ -69,14 +68,14 @@ double largest_N(const std::vector<ForceColumn>& columns) {
   return largest_N;
 }
 
-/// Upper end of an axis of speed: fits what is plotted, whatever one frame has.
+/// The end of an axis of speed, which fits the plotted data in spite of outliers.
 double highest_speed_px_s(const Timeline& timeline) {
   std::vector<double> speeds_px_s;
   for (const Moment& moment : timeline.plotted()) speeds_px_s.push_back(moment.speed_px_s);
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kMinSpeed_px_s);
 }
 
-/// The speeds whose force is weaker than kFeltForce_N. `adaptive` is drawn with the dead zone of an
+/// Shades the speeds whose force is weaker than kFeltForce_N. `adaptive` has the dead zone of an
 /// unknown error, which is not that of each frame.
 void shade_unfelt(const Brush& brush, const Plot& plot, const std::vector<double>& curve_N,
                   double highest_px_s) {

@@ -21,9 +21,9 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A player may stand still in a debugger; the window goes on drawing all the same.
+/// A player may stand still in a debugger; the window continues to draw.
 constexpr milliseconds kPatience{100};
-/// Of the first answer, without which the window has no name.
+/// For the first answer, without which the window has no name.
 constexpr milliseconds kFirstPatience{5000};
 constexpr int kFallbackRate_Hz = 60;
 
@@ -46,20 +46,20 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
     const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     glfwPollEvents();
     for (const UserInput& input : link.take_inputs()) window.process(input);
-    // After the last question, so that the picture has what came before it was asked for.
+    // This comes after the last request, so that the picture contains everything sent before.
     const std::optional<std::string> picture = link.wanted_picture();
     if (!picture) link.ask(kPatience);
     window.draw();
     if (picture) link.picture_taken(window.save(*picture));
     window.present();
-    // Where the processor draws, half of its time stays with others.
+    // Where the processor draws, half of its time remains for others.
     const std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now();
     const std::chrono::steady_clock::duration left = std::max(begin + period - end, end - begin);
     link.rest(std::chrono::duration_cast<milliseconds>(left));
   }
 }
 
-/// Returns the status of the program. The player reports what goes wrong, on its bus.
+/// Returns the status of the program. The player reports errors on its bus.
 int show(PlayerLink& link) {
   link.ask(kFirstPatience);
   if (link.is_over()) return link.is_not_understood() ? EXIT_FAILURE : EXIT_SUCCESS;
@@ -92,11 +92,11 @@ int main() {
     std::fputs("spidar-window: spidarmotion debug-window=true starts this program.\n", stderr);
     return EXIT_FAILURE;
   }
-  // What a driver prints does not get into the output of the player.
+  // The output of a driver must not mix with that of the player.
   dup2(STDERR_FILENO, STDOUT_FILENO);
   // Drawing yields to decoding.
   setpriority(PRIO_PROCESS, 0, 10);
-  // Pictures are converted by GStreamer's library; its plugins are not needed.
+  // GStreamer's library converts pictures; its plugins are not needed.
   setenv("GST_REGISTRY_DISABLE", "yes", 1);
   gst_init(nullptr, nullptr);
   spidar::window::PlayerLink link(STDIN_FILENO);

@@ -29,7 +29,7 @@ ImFont* load_font(const char* file, double size_px) {
       return font;
     }
   }
-  // Drawn for 13 pixels and their multiples.
+  // The font is drawn for 13 pixels and their multiples.
   ImFontConfig font;
   font.SizePixels =
       static_cast<float>(kDefaultFont_px * std::max(1.0, std::round(size_px / kDefaultFont_px)));
@@ -48,7 +48,7 @@ Fonts load_fonts(double scale) {
 
 void set_style(double scale) {
   ImGuiStyle& style = ImGui::GetStyle();
-  style = ImGuiStyle();  // it may have been scaled before
+  style = ImGuiStyle();  // an earlier call may have scaled it
   ImGui::StyleColorsDark();
   style.WindowRounding = style.PopupRounding = static_cast<float>(kRounding_px);
   style.FrameRounding = style.GrabRounding = style.ScrollbarRounding = 4;

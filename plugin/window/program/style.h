@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Typeface and colours of a debug window.
 #pragma once
 
 #include <imgui.h>
@@ -13,7 +12,7 @@ namespace spidar::window {
 constexpr ImU32 kBackColor = IM_COL32(17, 19, 24, 255);
 constexpr ImU32 kPanelColor = IM_COL32(26, 29, 36, 255);
 constexpr ImU32 kBorderColor = IM_COL32(44, 49, 60, 255);
-constexpr ImU32 kLabelColor = IM_COL32(12, 14, 18, 205);  ///< ground of text on a picture
+constexpr ImU32 kLabelColor = IM_COL32(12, 14, 18, 205);  ///< background of text on a picture
 constexpr ImU32 kGridColor = IM_COL32(48, 53, 64, 255);
 constexpr ImU32 kLineColor = IM_COL32(96, 104, 120, 255);
 constexpr ImU32 kTextColor = IM_COL32(226, 230, 237, 255);
@@ -29,7 +28,7 @@ constexpr ImU32 kAxisColors[3] = {IM_COL32(255, 112, 102, 255), IM_COL32(126, 21
 
 constexpr const char* kAxisNames[3] = {"right", "up", "near"};
 
-/// The same colour, `alpha` (0 … 255) opaque.
+/// The same colour with the opacity `alpha` (0 … 255).
 constexpr ImU32 faded(ImU32 color, unsigned alpha) {
   return (color & ~IM_COL32_A_MASK) | (alpha << IM_COL32_A_SHIFT);
 }
@@ -37,15 +36,13 @@ constexpr ImU32 faded(ImU32 color, unsigned alpha) {
 struct Fonts {
   ImFont* body = nullptr;
   ImFont* bold = nullptr;
-  ImFont* small = nullptr;  ///< of axes and labels
+  ImFont* small = nullptr;  ///< for axes and labels
 };
 
-/// Loads DejaVu Sans where it is installed, else the font that Dear ImGui brings along.
+/// Loads DejaVu Sans where it is installed, else the font of Dear ImGui.
 Fonts load_fonts(double scale);
-/// Colours, rounded corners and spaces of Dear ImGui's own widgets.
 void set_style(double scale);
 
-/// What a panel draws with.
 struct Brush {
   ImDrawList& list;
   double scale;  ///< of text and lines
@@ -70,18 +67,18 @@ inline ImVec2 lower_right(const Rect& rect) {
 ImVec2 text_size(const ImFont* font, const std::string& text);
 void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                const std::string& text);
-/// In lines of this width, around the height of `at`.
+/// Wraps lines at this width, around the height of `at`.
 void draw_wrapped(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                   const std::string& text, float width_px);
 /// The text ends at `at` instead of beginning there.
 void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                       const std::string& text);
-/// Text on a dark rounded ground, readable on any picture. `at` is its upper left corner.
+/// Draws text on a dark rounded background, readable on any picture. `at` is its upper left corner.
 void draw_label(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                 const std::string& text);
 
-/// Ground, border and title of a panel, `note` at the right of the title. Returns what is left
-/// for its content.
+/// Draws background, border and title of a panel, with `note` at the right of the title. Returns
+/// the space for its content.
 Rect draw_panel(const Brush& brush, const Rect& panel, const std::string& title,
                 const std::string& note = {});
 

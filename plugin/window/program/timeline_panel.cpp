@@ -26,7 +26,7 @@ std::vector<Eigen::Vector2d> profile(const Timeline& timeline, size_t parts) {
   return points;
 }
 
-/// Beside the mouse: the largest force there.
+/// Shows the largest force beside the mouse.
 void tell_force(const Plot& plot, const std::vector<Eigen::Vector2d>& force) {
   const double x_px = ImGui::GetMousePos().x;
   const auto after = std::find_if(force.begin(), force.end(), [&](const Eigen::Vector2d& point) {
@@ -54,7 +54,7 @@ Rect mark_rect(const Brush& brush, const Rect& position, const FilmStrip& strip,
 void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip) {
   brush.list.AddRectFilled(upper_left(position), lower_right(position), kGridColor, brush.px(2));
   for (const StripMark& mark : strip.marks) {
-    // A gap between two that follow each other.
+    // Leaves a gap between two successive marks.
     const Rect rect = mark_rect(brush, position, strip, mark).inset(0.5 * brush.scale);
     brush.list.AddRectFilled(upper_left(rect), lower_right(rect),
                              mark.is_new ? kFeltColor : kAccentColor, brush.px(2));
@@ -65,7 +65,7 @@ void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip
                      brush.px(2));
 }
 
-/// With the mouse over it.
+/// Handles the mouse over the strip.
 void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip,
                TimelineActions& actions) {
   ImGui::SetCursorScreenPos(im(position.x, position.y - 2 * brush.scale));
@@ -105,7 +105,7 @@ TimelineActions draw_timeline(const Brush& brush, const Rect& panel, const Timel
       make_axis(0, force_axis_end_N(largest_N), Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, x, y, "s", "N");
   plot.line(force, kFeltColor);
-  // What the plots below show.
+  // The part that the plots below show.
   brush.list.AddRectFilled(plot.at(-timeline.plotted_s(), y.high), plot.at(0, y.low),
                            faded(kTextColor, 28));
 

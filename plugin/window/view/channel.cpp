@@ -28,7 +28,7 @@ static_assert(sizeof(Header) == 12, "without padding");
 constexpr size_t kMaxFiles = 4;
 constexpr size_t kReadBytes = 64 << 10;
 
-/// A descriptor that is on its way through a socket counts only until that is closed.
+/// A descriptor in a socket counts only until the socket is closed.
 bool is_refused(int error) {
   return error != EAGAIN && error != ENOBUFS;
 }
@@ -54,7 +54,7 @@ void Channel::send(const std::vector<uint8_t>& bytes, int file) {
   flush();
 }
 
-/// Returns false when there is no room in the socket.
+/// Returns false when the socket is full.
 bool Channel::send_some(Unsent& packet) {
   iovec rest{packet.bytes.data() + packet.sent, packet.bytes.size() - packet.sent};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> space{};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// One end of the socket between a player and its window.
 #pragma once
 
 #include <cstddef>
@@ -11,19 +10,20 @@
 
 namespace spidar::window {
 
-/// A packet is a header, which has the protocol's version and the length, and as many bytes; a file
-/// may come with it. No function waits. One thread.
+/// One end of the socket between a player and its window. A packet is a header, with the protocol's
+/// version and the length, and as many bytes; a file may come with it. No function waits. One
+/// thread.
 class Channel {
  public:
-  /// What may come in a packet, and the files that may wait. The other end is broken if it sends
+  /// The largest packet, and the most files that may wait. The other end is broken if it sends
   /// more.
   struct Limits {
     uint32_t bytes = 0;
     size_t files = 0;
   };
-  /// A picture's report takes less than that. Its memory is taken as soon as it is there.
+  /// A picture's report takes less. Its memory is mapped as soon as it arrives.
   static constexpr Limits kFromPlayer{64 << 20, 16};
-  /// A thousand choices to be saved, 33 bytes each, with the path of their film. No files.
+  /// A thousand choices to save, 33 bytes each, with the path of their film. No files.
   static constexpr Limits kFromWindow{64 << 10, 0};
 
   /// Takes over the socket (AF_UNIX, SOCK_STREAM).
@@ -32,21 +32,21 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  /// Sends what there is room for; flush() sends the rest. `file` is copied; below 0: none.
+  /// Sends as much as the socket takes; flush() sends the rest. `file` is copied; below 0: none.
   void send(const std::vector<uint8_t>& bytes, int file = -1);
   void flush();
   bool has_unsent() const { return !unsent_.empty(); }
 
-  /// Reads what has come; then there may be packets.
+  /// Reads what has arrived; then there may be packets.
   void fill();
-  /// The oldest packet that is complete. Nothing when there is none.
+  /// Returns the oldest complete packet; nothing when there is none.
   std::optional<std::vector<uint8_t>> next();
-  /// The oldest file that has come, now the caller's; below 0: there is none.
+  /// Returns the oldest file, which now belongs to the caller; below 0: there is none.
   int take_file();
 
-  /// The other end is closed or broken. What came before can still be taken.
+  /// Whether the other end is closed or broken. Earlier packets can still be taken.
   bool is_gone() const { return is_gone_; }
-  /// The other end sends what is no packet of this version of the protocol.
+  /// Whether the other end sends something other than packets of this version of the protocol.
   bool is_not_understood() const { return is_not_understood_; }
   int socket() const { return socket_; }
 

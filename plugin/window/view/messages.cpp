@@ -24,7 +24,6 @@ struct Members {
   static auto of(FilmPlace& p) { return std::tie(p.area, p.picture_width, p.picture_height); }
   static auto of(Wrench& w) { return std::tie(w.force_N, w.torque_Nm); }
 
-  // The frame.
   static auto of(FrameStamp& s) {
     return std::tie(s.epoch, s.stream_ns, s.running_ns, s.length_ns, s.rate);
   }
@@ -41,7 +40,6 @@ struct Members {
   static auto of(TouchScene& t) {
     return std::tie(t.on, t.pointer, t.stiffness_N_m, t.motion_fraction, t.shading);
   }
-  /// What is shown of it.
   static auto of(DrawnFrame& r) {
     Frame& f = r.frame;
     return std::tie(r.stamp, f.place, f.interval_ns, f.objects, f.wrench, f.felt_object, r.film,
@@ -49,12 +47,10 @@ struct Members {
                     r.speed_px_s, r.click, r.touch, r.track);
   }
 
-  // The element.
   static auto of(Pose& p) { return std::tie(p.position_m, p.orientation.coeffs()); }
   static auto of(touch::Contact& c) {
     return std::tie(c.has_surface, c.touching, c.depth_m, c.proxy_m, c.force_N);
   }
-  /// What is drawn of it.
   static auto of(TickRecord& t) {
     return std::tie(t.monotonic_ns, t.lateness_ns, t.running_ns, t.wanted, t.delivered, t.tension_N,
                     t.pose, t.faulty_string, t.playing, t.max_force_N, t.contact, t.device);
@@ -70,7 +66,6 @@ struct Members {
     return std::tie(s.name, s.help, s.value, s.low, s.high, s.choices, s.usual, s.kind);
   }
 
-  // The messages.
   static auto of(PictureMemory& m) { return std::tie(m.id, m.caps, m.slots, m.slot_bytes); }
   static auto of(FrameShown& f) { return std::tie(f.memory, f.slot, f.report); }
   static auto of(ElementState& s) {
@@ -116,10 +111,10 @@ struct Members {
   }
 };
 
-/// Writes values, or reads what was written. Writing does not change them.
+/// Writes values, or reads written ones. Writing does not change them.
 ///
-/// Reading survives all other bytes: once a value does not fit into what is left or into its own
-/// range, ok() is false, and the values are of no use.
+/// Reading survives any other bytes: once a value does not fit into the rest or into its own range,
+/// ok() is false, and the values are meaningless.
 template <bool kReads>
 class Wire {
  public:
@@ -162,8 +157,8 @@ class Wire {
       written_.insert(written_.end(), first, first + count);
     }
   }
-  /// How many values follow. Each takes a byte or more, so that what is reserved when it is read is
-  /// bounded by what was sent.
+  /// The number of following values. Each takes a byte or more, so the size of the message bounds
+  /// the memory that a reader reserves.
   size_t count_of(size_t size) {
     auto count = static_cast<uint32_t>(size);
     one(count);
@@ -180,7 +175,7 @@ class Wire {
     if constexpr (kReads) text.resize(count);
     raw(text.data(), count);
   }
-  /// Empty for null.
+  /// An empty text stands for null.
   void one(std::shared_ptr<const std::string>& path) {
     std::string text = path ? *path : "";
     one(text);
@@ -201,7 +196,7 @@ class Wire {
       }
     }
   }
-  /// A function of its own, or GCC 12 warns that a value that is not there may be used.
+  /// This needs a function of its own, or GCC 12 warns that a missing value may be used.
   template <typename Value>
   [[gnu::noinline]] void one(std::optional<Value>& value) {
     bool is_there = value.has_value();
@@ -228,7 +223,7 @@ class Wire {
   void one(Eigen::Matrix<double, kRows, kColumns, kOptions>& matrix) {
     raw(matrix.data(), sizeof(double) * static_cast<size_t>(matrix.size()));
   }
-  /// As one of the eight ways in which a picture can be turned.
+  /// Encodes one of the eight ways in which a picture can be turned.
   void one(Orientation& turn) {
     constexpr int kQuarters = 4;
     const auto way = [](int n) { return Orientation(n % kQuarters, n >= kQuarters); };
@@ -260,13 +255,13 @@ std::vector<uint8_t> write(const Message& message) {
   Wire<false> wire;
   auto kind = static_cast<uint8_t>(message.index());
   wire.one(kind);
-  // A writer changes nothing of what it is given; only a reader does.
+  // A writer changes nothing; only a reader does.
   std::visit([&](auto& content) { wire.one(content); }, const_cast<Message&>(message));
   return std::move(wire.bytes());
 }
 
-/// The kind whose number is `kKind`, or one after it; nothing when there is no such kind, or its
-/// bytes are not those of one.
+/// Finds the kind whose number is `kKind`, or a later one; nothing when there is no such kind, or
+/// the bytes are not those of one.
 template <typename Message, size_t kKind = 0>
 std::optional<Message> read_kind(Wire<true>& wire, size_t kind) {
   if constexpr (kKind < std::variant_size_v<Message>) {

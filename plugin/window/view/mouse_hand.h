@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Converts mouse input over the picture to the hand of a simulated device.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +18,14 @@ struct Mouse {
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< in the window
   bool down = false;                                ///< left button
   bool shift = false;                               ///< Shift key
-  double wheel = 0;    ///< notches since the last frame, > 0 away from the user
-  bool taken = false;  ///< a widget uses the mouse
+  double wheel = 0;    ///< notches since the last frame, positive away from the user
+  bool taken = false;  ///< whether a widget uses the mouse
 };
 
-/// Pressing the left button in the picture moves the grip there and holds it. The wheel, or
-/// dragging up and down with Shift, moves the hand deeper into the picture (away from the viewer, z
-/// < 0) or nearer. The depth is kept when the button is released.
+/// Converts the mouse over the picture to the hand of a simulated device. Pressing the left button
+/// in the picture moves the grip there and holds it. The wheel, or dragging up and down with Shift,
+/// moves the hand deeper into the picture (away from the viewer, z < 0) or nearer. The depth stays
+/// when the button is released.
 class MouseHand {
  public:
   MouseHand() = default;
@@ -62,7 +62,6 @@ class MouseHand {
   void let_go() { *this = MouseHand(z_m_); }
 
   bool holds() const { return holds_; }
-  /// Whether the mouse is over the picture.
   bool is_over() const { return over_; }
   double z_m() const { return z_m_; }
 

@@ -13,7 +13,7 @@
 namespace spidar::window {
 namespace {
 
-/// Of the same pictures, without padding of its own.
+/// The same format and size without padding.
 GstVideoInfo plain_info(const GstVideoInfo& given) {
   GstVideoInfo plain;
   gst_video_info_init(&plain);
@@ -44,7 +44,7 @@ PictureSlots::PictureSlots(uint32_t id, const GstVideoFrame& frame)
   description_ = {id, caps_text(info_), kSlots, GST_VIDEO_INFO_SIZE(&info_)};
   const size_t bytes = size_t{kSlots} * GST_VIDEO_INFO_SIZE(&info_);
   file_ = memfd_create("spidar-window", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-  // Sealed, so that reading beyond its end cannot kill the window.
+  // The seal ensures that reading beyond its end cannot kill the window.
   if (file_ < 0 || ftruncate(file_, static_cast<off_t>(bytes)) != 0 ||
       fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
     return;
@@ -89,7 +89,7 @@ MappedPictures::MappedPictures(const PictureMemory& description, int file)
     : description_(description) {
   gst_video_info_init(&info_);
   struct stat status {};
-  // No overflow: a file is shorter than 2^63 bytes, and there are few slots.
+  // A file is shorter than 2^63 bytes, and there are few slots, so nothing overflows.
   const bool is_known =
       file >= 0 && fstat(file, &status) == 0 && status.st_size > 0 &&
       read_caps(description.caps, info_) && description.slots > 0 &&

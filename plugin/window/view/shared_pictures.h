@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pictures in the memory that a player shares with its window.
 #pragma once
 
 #include <cstddef>
@@ -17,12 +16,12 @@
 
 namespace spidar::window {
 
-/// Slots of one size for frames of one format, in a file without a name. A slot is taken by
-/// copy(), and is free again when the window has returned it. Thread-safe only where stated.
+/// Pictures in the memory that a player shares with its window: slots of one size for frames of one
+/// format, in a file without a name. copy() takes a slot, which is free again when the window has
+/// returned it. Thread-safe only where stated.
 class PictureSlots {
  public:
-  /// As many pictures as a window keeps: those that wait until they are on the screen, the one that
-  /// is shown, and the one that comes.
+  /// As many pictures as a window keeps: the waiting ones, the shown one, and the next one.
   static constexpr uint32_t kSlots = 10;
 
   /// Makes slots for frames like this one. When the system has no memory for them, is_there() is
@@ -37,10 +36,10 @@ class PictureSlots {
   const PictureMemory& description() const { return description_; }
   int file() const { return file_; }
 
-  /// The number of a free slot, which is taken from now on. Nothing when there is none.
+  /// Takes a free slot and returns its number; nothing when there is none.
   std::optional<uint32_t> take();
   void give_back(uint32_t slot);
-  /// Copies into a slot that was taken. False when the frame cannot be read. May run beside every
+  /// Copies into a taken slot. Returns false when the frame cannot be read. May run beside every
   /// other function.
   bool copy(const GstVideoFrame& frame, uint32_t slot) const;
 
@@ -52,10 +51,10 @@ class PictureSlots {
   std::vector<bool> taken_;
 };
 
-/// The memory on the window's side, where it is read only.
+/// The memory on the window's side, which is read-only there.
 class MappedPictures {
  public:
-  /// Takes over the file. When it does not match the description, is_there() is false.
+  /// Takes over the file. When the file does not match the description, is_there() is false.
   MappedPictures(const PictureMemory& description, int file);
   ~MappedPictures();
   MappedPictures(const MappedPictures&) = delete;
@@ -73,7 +72,7 @@ class MappedPictures {
   const uint8_t* memory_ = nullptr;
 };
 
-/// One picture in it, or none. When the last copy goes, `set_free` says that the slot is free.
+/// One picture in the memory, or none. When the last copy ends, `set_free` frees the slot.
 class SharedPicture {
  public:
   SharedPicture() = default;

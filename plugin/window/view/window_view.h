@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// All that a debug window shows, as plain data: no GL, no GObject.
 #pragma once
 
 #include <algorithm>
@@ -30,21 +29,21 @@ struct Setting {
   Kind kind = Kind::kNumber;
   double value = 0, low = 0, high = 0;
   std::vector<Choice> choices;
-  double usual = 0;  ///< of a number: its default
+  double usual = 0;  ///< the default of a number
 };
 
-/// The element as it is now.
+/// The present state of the element, as plain data without GL and GObject.
 struct ElementState {
   std::string name;
-  bool is_playing = false;           ///< its state is PLAYING
-  bool has_ended = false;            ///< the last frame is on the screen
+  bool is_playing = false;           ///< whether its state is PLAYING
+  bool has_ended = false;            ///< whether the last frame is on the screen
   std::optional<DeviceView> device;  ///< nothing with device=none or while it is closed
   std::vector<Setting> settings;
   std::vector<std::string> presets;  ///< by name
-  std::string no_force;              ///< why there was none in the last second; empty: it is felt
+  std::string no_force;  ///< why there was no force in the last second; empty: there was
   std::shared_ptr<const FeelRules> rules;  ///< of `feel`; null: there are none
 
-  /// Null when there is none of this name.
+  /// Returns null when there is no setting of this name.
   const Setting* setting(const std::string& setting_name) const {
     const auto found = std::find_if(settings.begin(), settings.end(),
                                     [&](const Setting& s) { return s.name == setting_name; });
@@ -56,9 +55,9 @@ struct ElementState {
   }
 };
 
-/// For the last line of the window: "felt", or "not felt: " and why; "felt: " and why, while the
-/// force is only lowered. `now` is the force of this moment, `no_force` that of the last second.
-/// While the surface is felt, also says when the device gets less stiffness than is set.
+/// Returns the last line of the window: "felt", or "not felt: " and why; "felt: " and why, while
+/// the force is only lowered. `now` is the force of this moment, `no_force` that of the last
+/// second. While the surface is felt, also says when the device gets less stiffness than is set.
 inline std::string felt_line(const ElementState& state, const TouchScene& touch,
                              const Wrench& now) {
   if (state.has_ended) return state.no_force;

@@ -11,19 +11,19 @@ namespace {
 // Fractions of the window.
 constexpr double kLeft = 0.66, kGrip = 0.3, kTensions = 0.2;
 constexpr double kTimeline = 0.13, kPlots = 0.23;
-/// Of text, in pixels at a scale of 1; a fraction of the window at most.
+/// The height of the text, in pixels at a scale of 1; at most a fraction of the window.
 constexpr double kStatus_px = 34, kStatusMost = 0.1;
-/// The title, the button, a line and the film below each other; a fraction of the window at most.
+/// The title, the button, a line and the film below each other; at most a fraction of the window.
 constexpr double kTimeline_px = 96, kTimelineMost = 0.2, kTimelineAlone = 0.3;
 constexpr double kGap_px = 8;
-// Less than these cuts a title, a row of buttons, a value with its unit, or the labels of an axis;
-// in pixels at a scale of 1.
+// Smaller panels cut a title, a row of buttons, a value with its unit, or the labels of an axis; in
+// pixels at a scale of 1.
 constexpr double kPlotWidth_px = 140, kPlotHeight_px = 104, kControls_px = 236;
 constexpr double kGripHeight_px = 104, kTensionsHeight_px = 92;
 
-// Of the view: turned about y, then tilted, radians.
+// The view is turned about y, then tilted, radians.
 constexpr double kTurn = 0.4, kTilt = 0.3;
-/// Of the panel, for the exits of the strings; the rest is for their numbers.
+/// The part of the panel for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
 
 }  // namespace
@@ -55,7 +55,7 @@ Layout lay_out(int width, int height, double scale, const Shown& shown) {
       plots_y - std::max(kTimeline * h, std::min(kTimeline_px * scale, timeline_most));
   const Rect whole = Rect{0, 0, w, h}.inset(gap);
   const auto place = [&](double x, double y, double right_x, double bottom_y) {
-    // Within the margin around all.
+    // The margin surrounds the whole window.
     const double x0 = std::max(x, whole.x), y0 = std::max(y, whole.y);
     return Rect{x0, y0, std::max(std::min(right_x, whole.right()) - x0, 0.0),
                 std::max(std::min(bottom_y, whole.bottom()) - y0, 0.0)}
@@ -102,7 +102,8 @@ GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry
 }
 
 Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
-  // The viewer goes to the right and up: near objects (z > 0) go to the left and down.
+  // The viewer's place is to the right and above: near objects (z > 0) are drawn to the left and
+  // down.
   const double x = std::cos(kTurn) * at_m.x() - std::sin(kTurn) * at_m.z();
   const double z = std::sin(kTurn) * at_m.x() + std::cos(kTurn) * at_m.z();
   return {x, -(std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z)};

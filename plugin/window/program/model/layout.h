@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Where the panels of a debug window are, in pixels from its upper left corner.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,12 +22,13 @@ struct Layout {
   Rect picture, timeline, force, speed, gain, status;  ///< left
   Rect grip, tensions, controls;                       ///< right
 };
-/// What there is to show.
+/// The parts that have something to show.
 struct Shown {
   bool speed = true, grip = true, tensions = true;
 };
-/// For a frame buffer of this size; `scale` is 1 where text of 14 pixels can be read. What is not
-/// there, or would be too small to be read, has an empty rectangle, and the others its room.
+/// Places the panels of a debug window, in pixels from its upper left corner, in a frame buffer of
+/// this size; `scale` is 1 where text of 14 pixels is readable. Parts that have nothing to show, or
+/// would be too small to read, get an empty rectangle, and the others their space.
 Layout lay_out(int width, int height, double scale, const Shown& shown = {});
 
 /// Maps pixels of the frame to pixels of the window.
@@ -36,13 +36,13 @@ struct PictureMap {
   Rect shown;  ///< the visible part of the frame
   double frame_x = 0, frame_y = 0;
   double scale_x = 1, scale_y = 1;
-  /// `at_px` with the centre of the first pixel at (0, 0).
+  /// Maps `at_px`, where the centre of the first pixel is (0, 0).
   Eigen::Vector2d operator()(const Eigen::Vector2d& at_px) const {
     return {shown.x + (at_px.x() - frame_x + 0.5) * scale_x,
             shown.y + (at_px.y() - frame_y + 0.5) * scale_y};
   }
 };
-/// `pixel_aspect`: width of a pixel over its height.
+/// `pixel_aspect` is the width of a pixel over its height.
 PictureMap map_picture(const Rect& panel, double frame_x, double frame_y, double frame_width,
                        double frame_height, double pixel_aspect);
 

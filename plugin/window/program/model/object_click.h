@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Clicks on the objects of the picture in a debug window.
 #pragma once
 
 #include <array>
@@ -14,8 +13,8 @@
 
 namespace spidar::window {
 
-/// The object in sight whose box has the position in it, the smallest of several; null when there
-/// is none. Positions are fractions of the visible part of the frame.
+/// Returns the visible object whose box contains the position, the smallest of several; null when
+/// there is none. Positions are fractions of the visible part of the frame.
 inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vector2d& position) {
   const Eigen::Vector2d at_px = report.frame.place.film_px(position);
   const MovingObject* found = nullptr;
@@ -27,8 +26,8 @@ inline const MovingObject* object_at(const DrawnFrame& report, const Eigen::Vect
   return found;
 }
 
-/// A position that is in the box of this object and in no smaller one, if there is such a position:
-/// a click there means this object. As a fraction of the visible part of the frame.
+/// Returns a position in the box of this object and in no smaller one, if there is one: a click
+/// there means this object. As a fraction of the visible part of the frame.
 inline Eigen::Vector2d position_of(const DrawnFrame& report, const MovingObject& object) {
   const FilmPlace& place = report.frame.place;
   const Eigen::Vector2d frame_px(place.picture_width, place.picture_height), none(0, 0);
@@ -56,19 +55,19 @@ inline bool offers_choice(const DrawnFrame& report) {
   return report.motion != MotionKind::kMean && !report.touch.on;
 }
 
-/// What a click asks for.
+/// The request of a click.
 struct ChoiceRequest {
   std::optional<Eigen::Vector2d>
-      position;         ///< of the object that is felt from now on; none: let go
-  uint32_t object = 0;  ///< the one that was clicked
+      position;         ///< of the object that is felt from now on; none: release
+  uint32_t object = 0;  ///< the clicked object
 };
 
-/// The left button chooses what it is pressed on; on the object that was chosen, it lets go. Where
-/// no object is, and while the picture is touched, the button is the hand's.
+/// Chooses the object on which the left button is pressed; on the chosen object, releases it. Where
+/// no object is, and while the picture is touched, the button belongs to the hand.
 class ObjectClick {
  public:
-  /// `picture` is the part of the window that shows the visible part of the frame. Nothing when
-  /// nobody clicked on an object.
+  /// `picture` is the part of the window that shows the visible part of the frame. Returns nothing
+  /// when nobody clicked on an object.
   std::optional<ChoiceRequest> update(const Mouse& mouse, const Rect& picture,
                                       const DrawnFrame& report) {
     const bool pressed = mouse.down && !was_down_;
@@ -79,7 +78,7 @@ class ObjectClick {
     }
     const Eigen::Vector2d position((mouse.at_px.x() - picture.x) / picture.width,
                                    (mouse.at_px.y() - picture.y) / picture.height);
-    // Not a number where there is no mouse.
+    // The position is not a number where there is no mouse.
     const bool is_over =
         position.x() >= 0 && position.x() <= 1 && position.y() >= 0 && position.y() <= 1;
     const MovingObject* const object = is_over ? object_at(report, position) : nullptr;
@@ -91,7 +90,6 @@ class ObjectClick {
     if (!is_chosen) request.position = position;
     return request;
   }
-  /// Whether the button is still down after a click on an object.
   bool holds() const { return holds_; }
 
  private:

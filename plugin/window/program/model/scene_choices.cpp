@@ -13,7 +13,7 @@ constexpr int64_t kMillisecond = 1'000'000;
 /// More than two frames of any film are apart.
 constexpr int64_t kLongestFrame_ns = 1'000'000'000;
 
-/// The begin of the millisecond: what holds from there on holds for the frame.
+/// The begin of the millisecond: a rule from there on holds for the frame.
 int64_t whole(int64_t ns) {
   return ns / kMillisecond * kMillisecond;
 }
@@ -92,7 +92,7 @@ bool SceneChoices::end_scene() {
   return has_ended;
 }
 
-/// What is in the file has to be taken out of it again.
+/// A rule in the file must be removed from the file, too.
 void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
   for (Choice& choice : choices_) {
     if (!choice.grows || !which(choice)) continue;
@@ -110,7 +110,7 @@ void SceneChoices::choose(const Sighting& object) {
   const int64_t from_ns = whole(object.first_ns);
   take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });
   for (Choice& other : choices_) {
-    if (!other.grows) continue;  // else the object came after this one had gone
+    if (!other.grows) continue;  // otherwise the object came after this one had gone
     other.grows = other.is_saved = false;
     other.edit.to_ns = from_ns;
   }
@@ -195,7 +195,7 @@ FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
   strip.length_ns = std::max(report.film.length_ns, now_ns);
   for (const FeelRule& rule : now) {
     if (rule.to_ns != FeelRule::kNoEnd) strip.length_ns = std::max(strip.length_ns, rule.to_ns);
-    // A choice that is saved grows with its scene.
+    // A saved choice grows with its scene.
     const auto is_same = [&](const FeelRule& other) {
       return other.from_ns == rule.from_ns && other.kind == rule.kind &&
              other.position == rule.position;

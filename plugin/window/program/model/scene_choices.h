@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a person chose in the scenes of one film, as changes to the rules of what is felt.
 #pragma once
 
 #include <cstdint>
@@ -33,21 +32,21 @@ struct ScenePlace {
 
 struct Sighting {
   uint32_t id = 0;
-  int64_t first_ns = -1;                 ///< in the film; −1: not known
-  Eigen::Vector2d first_position{0, 0};  ///< a fraction of the picture as it is shown
+  int64_t first_ns = -1;                 ///< in the film; −1: unknown
+  Eigen::Vector2d first_position{0, 0};  ///< a fraction of the shown picture
   int64_t last_ns = -1;
 };
 
-/// The objects seen in the scene that is on the screen.
+/// The objects that were seen in the scene on the screen.
 class Sightings {
  public:
-  /// An object that has been out of sight for longer is forgotten: were it seen again, it would be
-  /// another one.
+  /// An object that has been invisible for longer is forgotten: if it returned, it would be another
+  /// one.
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
 
-  /// The next frame that is on the screen. Another scene or film forgets all.
+  /// Takes the next frame on the screen. Another scene or film forgets all objects.
   void update(const DrawnFrame& report);
-  /// Null when it is not known.
+  /// Returns null for an unknown object.
   const Sighting* find(uint32_t id) const;
 
  private:
@@ -55,36 +54,37 @@ class Sightings {
   ScenePlace place_;
 };
 
-/// A choice is a rule from the moment at which its object was seen first up to the end of the
-/// scene, which is known once a cut has come. Until then, and where a seek leaves the scene before,
-/// it ends with what was seen of the scene; where the object is lost, it ends when the object was
+/// What a person chose in the scenes of one film, as changes to the rules of what is felt. A choice
+/// is a rule from the moment at which its object was first seen up to the end of the scene, which
+/// is known once a cut has come. Until then, and when a seek leaves the scene earlier, the rule
+/// ends with the seen part of the scene; when the object is lost, the rule ends when the object was
 /// last seen. Times are whole milliseconds.
 class SceneChoices {
  public:
-  /// The next frame that is on the screen. True when a choice ends because its scene has ended.
+  /// Takes the next frame on the screen. Returns true when a choice ends because its scene has
+  /// ended.
   bool update(const DrawnFrame& report);
 
   /// When the object of a choice was last seen, if it has been lost since the last call.
   std::optional<int64_t> take_lost() { return std::exchange(lost_ns_, std::nullopt); }
 
-  /// Chooses `object`, in place of what was chosen in this scene while it was in sight. Changes
-  /// nothing where the time in the film is not known.
+  /// Chooses `object`, in place of the choice in this scene while the object was visible. Changes
+  /// nothing where the time in the film is unknown.
   void choose(const Sighting& object);
-  /// Takes back the last of the choices in this scene.
+  /// Undoes the last choice in this scene.
   void let_go();
-  /// Lets no rule hold any more from one time to another.
+  /// Removes all rules from one time to another.
   void remove(int64_t from_ns, int64_t to_ns);
-  /// The scene has ended. True when a choice ends with it.
+  /// Tells that the scene has ended. Returns true when a choice ends with it.
   bool end_scene();
 
   bool has_unsaved() const;
   /// Whether a choice was saved before its end was known, and the end is known now.
   bool has_late_end() const;
-  /// The choices as edits, in the order in which they were made.
   std::vector<FeelEdit> edits() const;
-  /// The edits have been saved; those that are complete are forgotten.
+  /// Tells that the edits have been saved; complete ones are forgotten.
   void saved();
-  /// The edits could not be saved: the user has to ask again.
+  /// Tells that the edits could not be saved: the user must save again.
   void not_saved();
 
  private:
@@ -92,8 +92,8 @@ class SceneChoices {
     FeelEdit edit;
     uint32_t object = 0;
     int64_t seen_ns = 0;        ///< when the object was last seen
-    uint32_t click_before = 0;  ///< the one that the element knew of when the choice was made
-    bool is_kept = false;       ///< by the element, which knows of the click
+    uint32_t click_before = 0;  ///< the click that the element knew when the choice was made
+    bool is_kept = false;       ///< by the element, which knows the click
     bool grows = false;         ///< with the scene
     bool is_removal = false;
     bool is_saved = false;
@@ -104,14 +104,14 @@ class SceneChoices {
 
   std::vector<Choice> choices_;
   ScenePlace place_;
-  int64_t end_ns_ = 0;  ///< of the frame that was seen last
-  uint32_t click_ = 0;  ///< the same
+  int64_t end_ns_ = 0;  ///< of the last frame
+  uint32_t click_ = 0;  ///< of the last frame
   std::optional<int64_t> lost_ns_;
 };
 
 struct StripMark {
   FeelRule rule;
-  bool is_new = false;  ///< not saved yet
+  bool is_new = false;  ///< whether the mark is not saved yet
 };
 
 struct FilmStrip {
@@ -119,13 +119,13 @@ struct FilmStrip {
   int64_t length_ns = 0;  ///< 0: there is nothing to show
   std::vector<StripMark> marks;
 
-  /// 0 at the beginning of the film, 1 at its end; never beyond.
+  /// 0 at the beginning of the film, 1 at its end, and clamped to that range.
   double fraction(int64_t ns) const;
   /// The mark at this fraction, or no further than `reach` from it; null when there is none.
   const StripMark* at(double position, double reach) const;
 };
 
-/// The strip of a film from a file, if the time in it is known; else an empty one. `rules` may be
+/// The strip of a film from a file, if its times are known; else an empty strip. `rules` may be
 /// null.
 FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);

@@ -40,7 +40,7 @@ void Timeline::add(const ForceTick& tick) {
 }
 
 std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t count) const {
-  /// Between two ticks that are further apart nothing is known.
+  /// Nothing is known between two ticks that are further apart.
   constexpr double kGap_s = 0.5;
   std::vector<ForceColumn> columns(count);
   const auto is_before = [](const ForceTick& tick, double at_s) { return time_s(tick) < at_s; };
@@ -50,7 +50,7 @@ std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t co
     const double fraction = (time_s(*tick) - from_s) / (to_s - from_s);
     const size_t at =
         std::min(static_cast<size_t>(fraction * static_cast<double>(count)), count - 1);
-    // From the tick before on, so that what is drawn has no gaps.
+    // Beginning with the tick before leaves no gap in the curve.
     for (size_t i = before; last && i <= at; ++i) {
       if (time_s(*tick) - time_s(*last) <= kGap_s) include(columns[i], *last);
     }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Two settings of the element to compare, of which one is in use.
 #pragma once
 
 #include <array>
@@ -15,15 +14,16 @@
 
 namespace spidar::window {
 
-/// Both are those of the element at first; from then on each keeps what is changed while it is in
-/// use. Whether the force is stopped is part of neither.
+/// Two settings of the element to compare, of which one is in use. Both begin as those of the
+/// element; then each stores the changes while it is in use. Whether the force is stopped belongs
+/// to neither.
 class TwoSettings {
  public:
-  /// A change that the element has not made after this many of its answers was refused: those
-  /// before may have been on their way when it was asked.
+  /// The element has refused a change that is still missing after this many of its answers: earlier
+  /// answers may have been on their way when the change was requested.
   static constexpr int kPatience = 30;
 
-  /// Takes the settings as the element has them now.
+  /// Takes the present settings of the element.
   void update(const std::vector<Setting>& settings) {
     if (!asked_.empty() && ++answers_ > kPatience) asked_.clear();
     for (const Setting& setting : settings) {
@@ -35,7 +35,7 @@ class TwoSettings {
       }
       const auto asked = asked_.find(setting.name);
       if (asked == asked_.end()) {
-        // Only what has changed: the other setting's value may have been refused.
+        // Only changes count: the other setting's value may have been refused.
         if (seen->second != setting.value) kept_[used_][setting.name] = setting.value;
       } else if (asked->second == setting.value) {
         asked_.erase(asked);
@@ -45,16 +45,15 @@ class TwoSettings {
   }
 
   size_t used() const { return used_; }
-  /// The one that is not in use.
   const std::map<std::string, double>& other() const { return kept_[1 - used_]; }
   bool are_same() const { return kept_[0] == kept_[1]; }
 
-  /// From now on `which` (0 or 1) is in use. Returns what is to be set for that.
+  /// Uses `which` (0 or 1) from now on. Returns the properties to set.
   std::vector<std::pair<std::string, double>> use(size_t which) {
     used_ = which;
     return changes_to(kept_[which]);
   }
-  /// Resets the one that is in use to the values seen first. Returns what is to be set for that.
+  /// Resets the setting in use to the first values. Returns the properties to set.
   std::vector<std::pair<std::string, double>> reset() {
     kept_[used_] = first_;
     return changes_to(first_);
@@ -75,8 +74,8 @@ class TwoSettings {
   }
 
   std::map<std::string, double> first_, seen_;
-  std::map<std::string, double> asked_;  ///< values that were not seen yet
-  int answers_ = 0;                      ///< since then
+  std::map<std::string, double> asked_;  ///< requested values that have not come yet
+  int answers_ = 0;                      ///< since the request
   std::array<std::map<std::string, double>, 2> kept_;
   size_t used_ = 0;
 };
