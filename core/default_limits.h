@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The largest force and torque until somebody sets others.
 #pragma once
 
 namespace spidar {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The fields of a record that users read. Each is a row of a name, a unit, a value and a sentence,
-/// from which messages, statistics, traces and the pages of the elements are made.
+/// The fields of records that users read. Messages, statistics, traces and the pages of the
+/// elements are made from these rows of a name, a unit, a value and a sentence.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +14,11 @@
 
 namespace spidar {
 
-/// A signed number of 64 bits is a time or a duration in ns. GStreamer's have no sign: −1 is its
+/// A signed number of 64 bits is a time or a duration in ns. GStreamer's times have no sign: −1 is
 /// GST_CLOCK_TIME_NONE.
 using Scalar = std::variant<bool, int32_t, uint32_t, uint64_t, int64_t, double, const char*>;
-/// Values of one row, each with what its name ends in. They are a field each, and an array in JSON.
+/// Values of one row, each with the end of its name. They are separate fields, and an array in
+/// JSON.
 using Parts = std::vector<std::pair<const char*, Scalar>>;
 /// A matrix is one field, an array.
 using FieldValue = std::variant<Scalar, Parts, Eigen::MatrixXd>;
@@ -37,14 +38,14 @@ struct Field {
   const char* unit;  ///< "" for none
   const char* meaning;
 
-  /// As in a file, where names have units: "stream_time_ns"; with `part`, "force_x_N".
+  /// The name in a file, where names have units: "stream_time_ns"; with `part`, "force_x_N".
   std::string column(const char* part = "") const;
 };
 
-/// Takes the rows of a record one after the other. What is made of them derives from it.
+/// Takes the rows of a record one after the other. Each output derives from this class.
 class FieldSink {
  public:
-  /// Those of in() that belong to one of the `outputs` are taken, and all others.
+  /// Takes those rows of in() that belong to one of the `outputs`, and all other rows.
   explicit FieldSink(unsigned outputs = 0) : outputs_(outputs) {}
   virtual ~FieldSink() = default;
 
@@ -52,12 +53,12 @@ class FieldSink {
                   const char* meaning) {
     take({name, unit, meaning}, value);
   }
-  /// A row of these outputs only.
+  /// Adds a row of these outputs only.
   void in(unsigned outputs, const char* name, const char* unit, const FieldValue& value,
           const char* meaning) {
     if ((outputs & outputs_) != 0) take({name, unit, meaning}, value);
   }
-  /// The rows from here to end() belong together, which JSON shows.
+  /// Begins a group of rows, up to end(), which JSON shows.
   virtual void begin(const char* /*group*/) {}
   virtual void end() {}
 
@@ -68,8 +69,8 @@ class FieldSink {
   const unsigned outputs_;
 };
 
-/// Appends names or values to a line, with commas between them. Numbers are written without regard
-/// to the locale, as short as possible to be read back exactly; true is 1.
+/// Appends names or values to a line, with commas between them. Numbers ignore the locale and are
+/// as short as they can be read back exactly; true is 1.
 class CsvLine : public FieldSink {
  public:
   enum class Of { kNames, kValues };

@@ -7,7 +7,7 @@
 namespace spidar {
 namespace {
 
-/// "line 2, column 7", both from 1, of the byte `at`.
+/// Returns "line 2, column 7", both from 1, for the byte `at`.
 std::string place(std::string_view text, size_t at) {
   const std::string_view before = text.substr(0, at);
   const size_t line_begin = before.rfind('\n') + 1;  // 0 when there is none
@@ -15,7 +15,8 @@ std::string place(std::string_view text, size_t at) {
          ", column " + std::to_string(at - line_begin + 1);
 }
 
-/// The bracket that opens one level too many; npos when none does. Brackets in strings open none.
+/// The bracket that opens one level too many; npos when none does. Brackets in strings do not
+/// count.
 size_t first_too_deep(std::string_view text) {
   size_t depth = 0;
   bool is_string = false;
@@ -47,11 +48,11 @@ ReadJson parse_json(std::string_view text, std::string& why) {
   try {
     return ReadJson::parse(text.begin(), text.end());
   } catch (const ReadJson::parse_error& error) {
-    // The number of the byte from 1, or one more than there are.
+    // The number of the byte, from 1; at the end of the text, one more than there are.
     const size_t at = std::max<size_t>(error.byte, 1) - 1;
     why = at >= text.size() ? "it is no JSON: it ends too early"
                             : "it is no JSON: " + place(text, at) + " is wrong";
-  } catch (const ReadJson::exception&) {  // out_of_range: all that is left
+  } catch (const ReadJson::exception&) {  // out_of_range is the only other exception
     why = "it has a number that is beyond 1.8e308";
   }
   return ReadJson::value_t::discarded;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// JSON for other programs, in which names include units; and JSON from outside.
 #pragma once
 
 #include <cstddef>
@@ -27,16 +26,16 @@ Json json_array(const Vector& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-/// JSON that was read. Its members are sorted by their names: keeping their order would take a time
+/// JSON from outside. Its members are sorted by name, because keeping their order would take a time
 /// that grows with the square of their number.
 using ReadJson = nlohmann::json;
 
-/// Greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.
+/// The greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.
 constexpr size_t kMaxJsonDepth = 64;
 
-/// Reads all JSON that is not this program's own. Deeper JSON is refused before any code recurses
-/// into its levels. Of members with the same name the last one counts. On an error returns a value
-/// that is_discarded(), and `why` says why: "it is no JSON: …".
+/// Parses all JSON from outside. Refuses deeper JSON before any code recurses into its levels. The
+/// last of several members with one name counts. On an error returns a value that is_discarded(),
+/// and `why` explains it: "it is no JSON: …".
 ReadJson parse_json(std::string_view text, std::string& why);
 
 }  // namespace spidar

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Numbers as text for programs and files: the same in every locale.
 #pragma once
 
 #include <array>
@@ -13,8 +12,8 @@
 
 namespace spidar {
 
-/// The shortest text that is read back as the same number, 1e-09 for small ones. It allocates
-/// nothing and always fits.
+/// A number as text for programs and files, the same in every locale: the shortest text that is
+/// read back as the same number, 1e-09 for small ones. Allocates nothing and always fits.
 class NumberText {
  public:
   template <typename Number>
@@ -33,7 +32,7 @@ class NumberText {
   size_t length_ = 0;
 };
 
-/// The number that all of the text is; nothing unless it is one finite number.
+/// The number that the whole text states; nothing unless it is one finite number.
 inline std::optional<double> number_of(std::string_view text) noexcept {
   double value = 0;
   const char* const text_end = text.data() + text.size();

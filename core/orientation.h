@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How a picture is turned or mirrored before it is shown.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,8 +8,9 @@
 
 namespace spidar {
 
-/// A telephone that is held upright stores its pictures lying on their side, and the player turns
-/// them. Directions are x right, y down; positions go from (0, 0), the top left corner, to (1, 1).
+/// How a picture is turned or mirrored before it is shown. A telephone that is held upright stores
+/// its pictures lying on their side, and the player turns them. Directions are x right, y down;
+/// positions go from (0, 0), the top left corner, to (1, 1).
 class Orientation {
  public:
   /// For a picture that is shown as it is stored.
@@ -31,7 +31,7 @@ class Orientation {
   Eigen::Vector2d to_stored(const Eigen::Vector2d& direction) const {
     return turn_.transpose() * direction;
   }
-  // Nothing is rounded where nothing is turned.
+  // Without a turn, nothing is rounded.
   Eigen::Vector2d displayed_position(const Eigen::Vector2d& position) const {
     if (is_none()) return position;
     return middle() + to_displayed(position - middle());
@@ -41,7 +41,7 @@ class Orientation {
     return middle() + to_stored(position - middle());
   }
 
-  /// A torque is an axial vector: mirroring the picture reverses it in addition.
+  /// A torque is an axial vector: mirroring the picture also reverses it.
   Wrench to_displayed(const Wrench& wrench) const {
     if (is_none()) return wrench;
     Eigen::Matrix3d in_device = Eigen::Matrix3d::Identity();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Force and torque.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace spidar {
 
-/// Force on the grip and torque about the grip's origin, both in the device frame D
-/// (right-handed: x right, y up, z towards the viewer; origin at the workspace centre).
+/// Force on the grip and torque about the grip's origin, both in the device frame D (right-handed:
+/// x right, y up, z towards the viewer; origin at the workspace centre).
 struct Wrench {
   Eigen::Vector3d force_N = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_Nm = Eigen::Vector3d::Zero();
@@ -33,7 +32,6 @@ inline Wrench operator-(const Wrench& a, const Wrench& b) {
   return {a.force_N - b.force_N, a.torque_Nm - b.torque_Nm};
 }
 
-/// Wrench between `a` (s = 0) and `b` (s = 1).
 inline Wrench interpolate(const Wrench& a, const Wrench& b, double s) {
   return a + s * (b - a);
 }

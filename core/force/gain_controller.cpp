@@ -47,7 +47,7 @@ void GainController::configure(const ControllerSettings& settings) {
   const bool is_other_law = settings.law != settings_.law;
   const bool is_other_scale = settings.alpha_s_px != settings_.alpha_s_px;
   settings_ = settings;
-  // α was 0: nothing was learnt.
+  // With α = 0 the scale was not adapted.
   if (is_other_law || (is_other_scale && std::isinf(log_scale_))) reset();
   if (is_other_scale) limit_scale();
 }
@@ -73,7 +73,7 @@ double GainController::force_N(double speed_px_s, double interval_s, double dead
   switch (settings_.law) {
     case ControlLaw::kLinear:
       max_speed_px_s_ = std::max(max_speed_px_s_, speed_px_s);
-      // The quotient first: exactly max_force_N at the largest speed, and no overflow of k.
+      // Dividing first gives exactly max_force_N at the largest speed, and no overflow of k.
       return max_speed_px_s_ > 0 ? most_N * (speed_px_s / max_speed_px_s_) : 0;
     case ControlLaw::kNonlinear:
       return nonlinear_N(most_N, settings_.alpha_s_px, speed_px_s);

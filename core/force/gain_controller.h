@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How strongly a speed is rendered.
 #pragma once
 
 #include "core/default_limits.h"
@@ -21,8 +20,8 @@ struct ControllerSettings {
 /// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
 void validate(const ControllerSettings& settings);
 
-/// Gain from speed to force. The paper's equations are one-dimensional; here they act on the speed
-/// and the direction is kept, which is the isotropic reading of them.
+/// The gain from speed to force. The paper's equations are one-dimensional; here they act on the
+/// speed and the direction is kept, which is their isotropic reading.
 ///
 /// kLinear: F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k
 /// never rises.
@@ -30,41 +29,41 @@ void validate(const ControllerSettings& settings);
 /// kNonlinear: F = (2 Fmax / π) atan(α V) (eq. 14–15).
 ///
 /// kAdaptive: F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the
-/// speeds seen, and a dead zone V₀ that the force leaves without a step.
+/// past speeds, and a dead zone V₀ that the force leaves without a step.
 ///
-/// The dead zone is that of the motion, or DeadZone::kUnknownError_px_s where it is not known.
-/// Within it the force is exactly zero and the scale stays as it is, so that a pause does not make
-/// the controller more sensitive.
+/// The dead zone is that of the motion, or DeadZone::kUnknownError_px_s where that is unknown.
+/// Within the dead zone the force is exactly zero and the scale stays as it is, so that a pause
+/// does not make the controller more sensitive.
 ///
 /// The scale follows ln V: d ln S / dt = clamp(ln V − ln S, −1, 1) / T, with T = kAttack_s while
-/// speeds are above the scale and kRelease_s while they are below. It settles where a fraction of
-/// about T_release / (T_attack + T_release) of the time is below it: an M-quantile (Breckling and
-/// Chambers, Biometrika 75, 1988) of the logarithm, whose influence function is bounded. A single
-/// outlier, however large, therefore raises the scale by a factor of at most exp(Δt / T) in a frame
-/// of Δt; with eq. 12 it would weaken the rest of the film in proportion to its size. Each step is
-/// the exact solution over its interval, so the result does not depend on the frame rate.
+/// speeds are above the scale and kRelease_s while they are below. The scale settles where the
+/// speed is below it for a fraction of about T_release / (T_attack + T_release) of the time: an
+/// M-quantile (Breckling and Chambers, Biometrika 75, 1988) of the logarithm, whose influence
+/// function is bounded. A single outlier, however large, therefore raises the scale by a factor of
+/// at most exp(Δt / T) in a frame of Δt; with eq. 12 it would weaken the rest of the film in
+/// proportion to its size. Each step is the exact solution over its interval, so the result does
+/// not depend on the frame rate.
 ///
-/// S starts at 1/α and stays within a factor of kRange of it, so that the noise of a film in which
-/// hardly anything moves is not amplified.
+/// S starts at 1/α and stays within a factor of kRange of it, which limits how far a film without
+/// much motion amplifies noise.
 class GainController {
  public:
-  /// Throws as validate() does.
   explicit GainController(const ControllerSettings& settings);
 
-  /// Force for a speed, 0 … max_force_N. May learn from the speed, so call it once per frame, in
-  /// the order of the frames. In px/s of the reference frame: `speed_px_s` ≥ 0, and
-  /// `dead_zone_px_s` as ImageMotion has it. `interval_s`: running time since the previous frame.
-  /// 0: the interval, or the dead zone, is not known.
+  /// Returns the force for a speed, 0 … max_force_N. The scale may adapt to the speed, so call this
+  /// once per frame, in order. In px/s of the reference frame: `speed_px_s` ≥ 0, and
+  /// `dead_zone_px_s` as in ImageMotion. `interval_s` is the running time since the previous frame.
+  /// 0 means that the interval, or the dead zone, is unknown.
   double force_N(double speed_px_s, double interval_s = 0, double dead_zone_px_s = 0);
 
-  /// Takes effect with the next speed; what was learnt stays unless the law changes. Throws as
-  /// validate() does.
+  /// Applies from the next speed on; the scale stays unless the law changes. Throws as validate()
+  /// does.
   void configure(const ControllerSettings& settings);
 
-  /// Forgets what was learnt: after a flush or a discontinuity of the stream.
+  /// Resets the scale: after a flush or a discontinuity of the stream.
   void reset();
 
-  /// S of kAdaptive, px/s: the speed that gives half of the maximum force; infinite with α = 0.
+  /// S of kAdaptive, px/s: V₀ + S gives half of the maximum force; infinite with α = 0.
   double scale_px_s() const;
 
   static constexpr double kAttack_s = 2;

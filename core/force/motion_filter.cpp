@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// `x` in px/s of the reference frame.
+/// `x` is in px/s of the reference frame.
 template <int N>
 Eigen::Matrix<double, N, 1> steady(OneEuroFilter<N>& filter, const Eigen::Matrix<double, N, 1>& x,
                                    double interval_s, const FilterSettings& settings) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Smooths the motion before it becomes force.
 #pragma once
 
 #include <cmath>
@@ -15,22 +14,21 @@ namespace spidar {
 /// Low-pass Filter for Noisy Input in Interactive Systems, CHI 2012, Algorithm 1 and 2): a
 /// first-order low-pass whose cutoff rises with the rate of change, fc = fc_min + β |dx/dt|. Slow
 /// changes are smoothed, fast ones hardly delayed. Here |dx/dt| is that of the whole vector, so
-/// that the filter does not depend on how the axes lie. Unlike in the paper, the rate of change is
-/// low-passed as a magnitude, without its direction: in a motion to and fro, directions would
-/// cancel, and the cutoff would fall where it is needed.
+/// that the result does not depend on the directions of the axes. Unlike in the paper, the rate of
+/// change is low-passed as a magnitude, without its direction: in a motion to and fro, directions
+/// would cancel, and the cutoff would fall where it must be high.
 ///
-/// Samples may be any time apart: the smoothing factor is that of the backward Euler step,
-/// 1 / (1 + 1 / (2π fc Δt)). A ramp is delayed by 1 / (2π fc), whatever Δt.
+/// Samples may be any time apart: the smoothing factor is that of the backward Euler step, 1 / (1 +
+/// 1 / (2π fc Δt)). A ramp is delayed by 1 / (2π fc), whatever Δt.
 template <int N>
 class OneEuroFilter {
  public:
   using Vector = Eigen::Matrix<double, N, 1>;
 
-  /// Cutoff of the rate of change, as in the paper.
   static constexpr double kRateCutoff_Hz = 1;
 
-  /// The first value after reset() passes unchanged. `interval_s` > 0 is the time since the
-  /// previous value, `min_cutoff_Hz` > 0, `beta` ≥ 0 in Hz for a unit of x a second.
+  /// Filters a value; the first one after reset() passes unchanged. `interval_s` > 0 is the time
+  /// since the previous value, `min_cutoff_Hz` > 0, `beta` ≥ 0 in Hz for a unit of x a second.
   Vector filter(const Vector& x, double interval_s, double min_cutoff_Hz, double beta) {
     if (!started_) {
       reset(x);
@@ -44,12 +42,11 @@ class OneEuroFilter {
     return value_;
   }
 
-  /// Fraction of the newest value in the last result, 0 … 1: result += fraction · (value − result).
-  /// If the values have independent noise of variance v, the noise of the result has the variance
-  /// (1 − fraction)² u + fraction² v, where u is that of the result before.
+  /// The fraction of the newest value in the last result, 0 … 1: result += fraction · (value −
+  /// result). If the values have independent noise of variance v, the noise of the result has the
+  /// variance (1 − fraction)² u + fraction² v, where u is that of the previous result.
   double fraction() const { return fraction_; }
 
-  /// Starts anew with `x` as the first value.
   void reset(const Vector& x) {
     value_ = x;
     rate_ = 0;
@@ -67,16 +64,16 @@ class OneEuroFilter {
   }
 
   Vector value_ = Vector::Zero();
-  double rate_ = 0;  ///< magnitude of the rate of change
+  double rate_ = 0;  ///< the magnitude of the rate of change
   double fraction_ = 1;
   bool started_ = false;
 };
 
-/// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is
-/// delayed by 1 / (2π (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) where
-/// a is constant, 2 px/s with the default β, which cannot be felt (DeadZone::kUnknownError_px_s).
-/// In a sway, the low-pass has at least 0.45 of the largest a: less than 0.36 / β, 4.5 px/s.
-/// docs/feeling.md compares other values.
+/// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is delayed by 1 / (2π
+/// (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) where a is constant, 2
+/// px/s with the default β, which cannot be felt (DeadZone::kUnknownError_px_s). In a sway, the
+/// low-pass has at least 0.45 of the largest a: less than 0.36 / β, 4.5 px/s. docs/feeling.md
+/// compares other values.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
   /// Hz for each px/s² of the reference frame, finite and ≥ 0.
@@ -86,21 +83,22 @@ struct FilterSettings {
 /// Throws std::invalid_argument when a value is out of range.
 void validate(const FilterSettings& settings);
 
-/// One 1 € filter each for velocity, growth and roll. All are filtered in px/s of the reference
-/// frame, growth and roll as the speed at kRim_px, so that one β fits all. When nothing moves and
-/// the filtered motion is slower than kRest_px_s, the result is exactly zero. The dead zone shrinks
-/// as the filter reduces the noise of the velocity.
+/// Smooths the motion before it becomes force, with one 1 € filter each for velocity, growth and
+/// roll. All are filtered in px/s of the reference frame, growth and roll as the speed at kRim_px,
+/// so that one β fits all. When nothing moves and the filtered motion is slower than kRest_px_s,
+/// the result is exactly zero. The dead zone shrinks as the filter reduces the noise of the
+/// velocity.
 class MotionFilter {
  public:
   /// Filters the `motion` of a frame of `frame_height` pixels, `interval_s` > 0 after the previous
-  /// frame. With min_cutoff_Hz = 0 it returns `motion` unchanged.
+  /// frame. With min_cutoff_Hz = 0 this returns `motion` unchanged.
   ImageMotion filter(const ImageMotion& motion, int frame_height, double interval_s,
                      const FilterSettings& settings);
 
-  /// Sets the filters to rest, as if the motion had been zero for a long time.
+  /// Stops the filters, as if the motion had been zero for a long time.
   void stop();
 
-  /// After a cut or a seek: the next motion passes unchanged.
+  /// Call this after a cut or a seek: the next motion passes unchanged.
   void reset();
 
   static constexpr double kRest_px_s = 0.1;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Converts the motion of the picture to a wrench in six degrees of freedom.
 #pragma once
 
 #include "core/force/gain_controller.h"
@@ -55,7 +54,7 @@ inline Wrench render_motion(GainController& controller, const ImageMotion& motio
   if (!(speed_px_s > 0)) return wrench;
   const Eigen::Vector4d direction = u / speed_px_s;
   wrench.force_N << force_N * direction[0], -force_N * direction[1], force_N * direction[2];
-  wrench.torque_Nm.z() = 0 - force_N * kTorqueArm_m * direction[3];  // no −0 without roll
+  wrench.torque_Nm.z() = 0 - force_N * kTorqueArm_m * direction[3];  // 0 − avoids −0 without roll
   return wrench;
 }
 

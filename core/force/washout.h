@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Lets a force that lasts fade, while its changes pass.
 #pragma once
 
 #include <cmath>
@@ -15,15 +14,15 @@ inline void validate_washout(double cutoff_Hz) {
   require_not_negative("washout_Hz", cutoff_Hz);
 }
 
-/// The washout of motion platforms: a high-pass of first order. A wrench w that begins suddenly is
-/// w exp(−2π fc t) after a time t; when it ends suddenly, what it has lost is left in the opposite
-/// direction, and fades likewise.
+/// Lets a lasting force fade, while its changes pass: the washout of motion platforms, a high-pass
+/// of first order. A wrench w that begins suddenly is w exp(−2π fc t) after a time t; when it ends
+/// suddenly, the lost part appears in the opposite direction, and fades likewise.
 class Washout {
  public:
-  /// `wrench` less its low-pass; no larger than `most_N` as one force (size_N()), because a force
-  /// that turns round would be up to twice as large. With a cut-off of 0 it is `wrench`, to the
-  /// bit. `interval_s` > 0 is the time since the previous call, during which that call's wrench
-  /// lasted.
+  /// Returns `wrench` minus its low-pass, limited to `most_N` as one force (size_N()), because a
+  /// force that reverses would be up to twice as large. With a cut-off of 0 the result is exactly
+  /// `wrench`. `interval_s` > 0 is the time since the previous call, during which that call's
+  /// wrench lasted.
   Wrench apply(const Wrench& wrench, double interval_s, double cutoff_Hz, double most_N) {
     if (cutoff_Hz == 0) {
       reset();
@@ -36,7 +35,7 @@ class Washout {
     return size > most_N ? (most_N / size) * passed : passed;
   }
 
-  /// After a cut, in a picture at rest, and when something else is felt.
+  /// Call this after a cut, in a still picture, and when something else is felt.
   void reset() { *this = Washout(); }
 
  private:

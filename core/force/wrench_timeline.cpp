@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// later − earlier ≥ 0, right for any two times: the difference may not fit into an int64_t.
+/// later − earlier ≥ 0 for any two times, whose difference may not fit into an int64_t.
 uint64_t elapsed_ns(int64_t earlier_ns, int64_t later_ns) {
   return static_cast<uint64_t>(later_ns) - static_cast<uint64_t>(earlier_ns);
 }
@@ -17,8 +17,8 @@ double elapsed_s(int64_t earlier_ns, int64_t later_ns) {
   return 1e-9 * static_cast<double>(elapsed_ns(earlier_ns, later_ns));
 }
 
-/// Steffen's slope at the point where two straight lines meet, of which the slopes and the
-/// durations are given; zero where that is not a number.
+/// Steffen's slope at the point where two straight lines meet, from their slopes and durations;
+/// zero where that is not a number.
 Eigen::Vector3d slope_between(const Eigen::Vector3d& before, const Eigen::Vector3d& after,
                               double before_s, double after_s) {
   Eigen::Vector3d slope;
@@ -33,7 +33,7 @@ Eigen::Vector3d slope_between(const Eigen::Vector3d& before, const Eigen::Vector
   return slope;
 }
 
-/// At `b`, on the way from `a` to `c`.
+/// The slope at `b`, on the way from `a` to `c`.
 Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double before_s,
                      double after_s) {
   const Wrench before = (1 / before_s) * (b - a);
@@ -42,7 +42,6 @@ Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double b
           slope_between(before.torque_Nm, after.torque_Nm, before_s, after_s)};
 }
 
-/// Whether the hold of the last frame has ended.
 bool has_expired(const TimedWrench& frame, int64_t time_ns) {
   const int64_t hold_ns = std::max<int64_t>(frame.hold_ns, 0);
   return time_ns > frame.time_ns &&
@@ -57,7 +56,7 @@ void hold_until(TimedWrench& frame, const TimedWrench& repeated) {
   frame.hold_ns = std::max(frame.hold_ns, since_ns + more_ns);
 }
 
-/// Whether there is time to go to rest and back between the two.
+/// Whether there is time to ramp to zero and back between the two frames.
 bool is_gap(const TimedWrench& frame, int64_t next_ns) {
   const int64_t hold_ns = std::max(frame.hold_ns, WrenchTimeline::kLongestHold_ns);
   return elapsed_ns(frame.time_ns, next_ns) >
@@ -65,7 +64,7 @@ bool is_gap(const TimedWrench& frame, int64_t next_ns) {
 }
 
 /// Whether the picture before `motion_ns` gave no force, and was shown again until after that: the
-/// motion has begun with the picture, not with the last of its frames.
+/// motion then begins with the new picture, not with the last repetition.
 template <typename Segments>
 bool rests_until(const Segments& segments, size_t age, int64_t motion_ns) {
   const auto is_zero = [&](size_t of) { return segments[of].frame.wrench.stacked().isZero(0); };
@@ -84,7 +83,7 @@ size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
 // A cubic Hermite curve from p0 with slope m0 to p1 with slope m1, in a time T, with s from 0 to 1:
 //   p = (2s³ − 3s² + 1) p0 + (−2s³ + 3s²) p1 + (s³ − 2s² + s) T m0 + (s³ − s²) T m1
 //     = p0 + s²(3 − 2s) (p1 − p0) + s(1 − s) T [(1 − s) m0 − s m1].
-// p0 is the value of the segment before at the same time. It is constant when that segment has
+// p0 is the value of the segment before at the same time. p0 is constant when that segment has
 // ended; otherwise m0 = 0, and the curve leaves that segment with its slope, because the weight of
 // p1 and its derivative are zero at s = 0.
 Wrench WrenchTimeline::value(size_t age, int64_t time_ns) const noexcept {
@@ -115,8 +114,8 @@ int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
   return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(fraction_ns));
 }
 
-/// The earliest time at which the curve can reach `added`, which follows `before` and has become
-/// known just now.
+/// The earliest time at which the curve can reach `added`, which follows `before` and has just
+/// become known.
 int64_t WrenchTimeline::soonest(const TimedWrench& before,
                                 const TimedWrench& added) const noexcept {
   if (present_ns_ == INT64_MIN) return INT64_MIN;
@@ -141,8 +140,8 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
   const int64_t free_ns = segments_[rests_until(segments_, 0, motion_ns) ? 1 : 0].to_ns;
   const bool is_late = std::max(soonest_ns, free_ns) > motion_ns;
   if (is_late) {
-    // When the last frame has expired, the force is on its way to rest already, and there is no
-    // curve over which to fade in.
+    // When the last frame has expired, the force is already ramping to zero, and there is no curve
+    // over which to fade in.
     const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);
     if (at_rest) return next;
     next.from_ns = std::max(present_ns_, last.from_ns);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Wrenches with the time at which each is to be rendered.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +10,14 @@
 
 namespace spidar {
 
-/// A wrench for one frame.
+/// The wrench of one frame, and when it is rendered.
 struct TimedWrench {
   int64_t time_ns = 0;  ///< running time at which the frame is shown
-  /// How long after `time_ns` the wrench holds if no later frame follows; after that it has
-  /// expired.
+  /// How long after `time_ns` the wrench holds if no later frame follows; then it has expired.
   int64_t hold_ns = 0;
   Wrench wrench;
-  /// The frame shows the previous picture again: the wrench of that picture holds on, from
-  /// `time_ns` for `hold_ns`. `wrench` is the same, for a timeline that has forgotten the previous
-  /// frame.
+  /// The frame repeats the previous picture, whose wrench continues from `time_ns` for `hold_ns`.
+  /// `wrench` is the same, for a timeline that has forgotten the previous frame.
   bool repeated = false;
   /// How long before the frame the wrench applies: a motion that was measured between two pictures
   /// belongs to the time halfway between them.
@@ -29,20 +26,19 @@ struct TimedWrench {
   int64_t motion_ns() const noexcept { return time_ns - before_ns; }
 };
 
-/// How a wrench was found.
 enum class Found {
   kNothing,       ///< empty, or before the first frame: wrench is zero
-  kExact,         ///< the time of a frame, if its wrench is that of the same time
+  kExact,         ///< at the time of a frame
   kInterpolated,  ///< between two frames
   kHeld,          ///< after the last frame, within its hold time
-  kExpired,       ///< after that: the wrench is the last one, for a ramp to rest, not to be applied
+  kExpired,       ///< after that: the wrench is the last one, for a ramp to zero
 };
 
 struct TimelineResult {
   Wrench wrench;
   Found found = Found::kNothing;
-  int64_t frame_time_ns = INT64_MIN;  ///< of the newest frame at or before the time asked for
-  int64_t late_ns = 0;  ///< how much later than its time the wrench of that frame is reached
+  int64_t frame_time_ns = INT64_MIN;  ///< of the newest frame at or before the queried time
+  int64_t late_ns = 0;                ///< how late the wrench of that frame is reached
 };
 
 /// A short memory of timed wrenches. Interpolates, never extrapolates. Fixed size, no allocation.
@@ -52,43 +48,43 @@ struct TimelineResult {
 /// are those of M. Steffen, "A simple method for monotonic interpolation in one dimension",
 /// Astronomy and Astrophysics 239 (1990), equation 11, if the following frame is known by the time
 /// that the curve towards a frame begins. Otherwise they are zero: waiting would be delay, and any
-/// other slope could overshoot what the following frame turns out to be.
+/// other slope could overshoot the wrench of the following frame.
 ///
-/// A gap is an interval without frames that is long enough to go to rest and back. In it the wrench
-/// holds and expires as if the next frame were not known; it rises from zero to the wrench of the
-/// next frame before that frame is due: a picture that has stood for long gives no force.
+/// A gap is an interval without frames that is long enough to ramp to zero and back. In a gap the
+/// wrench holds and expires as if the next frame were unknown; then it rises from zero to the
+/// wrench of the next frame before that frame is due: a still picture gives no force.
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// A frame that becomes known less than approach_after() ahead of its motion is reached that long
-  /// after it becomes known, because a step would be felt as a knock. To and from rest this takes
-  /// kApproach_ns.
+  /// The timeline reaches a frame that becomes known late, less than approach_after() ahead of its
+  /// motion, that long after it becomes known, because a step would be felt as a knock. To and from
+  /// zero this takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
-  /// Duration of an approach as a fraction of the interval between two frames: the less often
+  /// The duration of an approach as a fraction of the interval between two frames: the less often
   /// pictures change, the more the force changes at once, and the longer that takes. A force that
   /// changes during this fraction of the time has 1 / √kApproachFraction = 1.49 times the rms step
   /// of one that changes all the time.
   static constexpr double kApproachFraction = 0.45;
-  /// No frame is reached later than this after its time, unless it became known too late for that.
-  /// A delay of touch is noticed from 50 ms on.
+  /// No frame is reached later than this after its time, unless it became known too late. People
+  /// notice a delay of touch from 50 ms on.
   static constexpr int64_t kLatest_ns = 30'000'000;
-  /// Duration of an approach: kApproachFraction of the interval since the previous frame; at least
-  /// kApproach_ns, or the interval where that is shorter.
+  /// The duration of an approach: kApproachFraction of the interval since the previous frame; at
+  /// least kApproach_ns, or the interval where that is shorter.
   static int64_t approach_after(int64_t interval_ns) noexcept;
-  /// The longest time for which a frame should be held. It does not limit TimedWrench::hold_ns,
-  /// which the caller chooses.
+  /// The longest time for which a frame should be held. The caller chooses TimedWrench::hold_ns,
+  /// which this does not limit.
   static constexpr int64_t kLongestHold_ns = 100'000'000;
   /// TimedWrench::hold_ns of a frame that comes `interval_ns` after the previous one, when no later
   /// frame is known (live): until the next one is due, and a little longer because it may be late.
-  /// With SafetyLimits::ramp_s the force is gone 50 ms after a frame that does not come, and at any
-  /// frame rate from 11/s on it does not dip between two that do.
+  /// With SafetyLimits::ramp_s the force is zero 50 ms after a missing frame, and at any frame rate
+  /// from 11/s on it does not dip between two frames.
   static constexpr int64_t hold_after(int64_t interval_ns) noexcept {
     constexpr int64_t kLate_ns = 10'000'000;
     if (interval_ns <= 0) return 0;
     return interval_ns < kLongestHold_ns - kLate_ns ? interval_ns + kLate_ns : kLongestHold_ns;
   }
-  /// Time from a full wrench to rest when it has expired, and from rest to a full one after a gap.
-  /// SafetyLimits::ramp_s is the same.
+  /// The time from a full wrench to zero when it has expired, and from zero to a full one after a
+  /// gap. SafetyLimits::ramp_s is the same.
   static constexpr int64_t kRamp_ns = 40'000'000;
 
   /// Returns false, and ignores the entry, when its time is not later than that of the last one. A
@@ -97,9 +93,9 @@ class WrenchTimeline {
   /// before it to the next different one; it only prolongs the hold of the previous frame, unless
   /// that has expired. When the timeline is full, it drops the oldest entry.
   ///
-  /// The curve never changes before the time that at() was asked for last, neither in value nor in
-  /// slope. A late frame therefore fades in from that time, over what the curve would have been
-  /// without it; when everything has expired by then, it applies at once.
+  /// The curve never changes before the time of the last at(), neither in value nor in slope. A
+  /// late frame therefore fades in from that time, over the curve without that frame; when
+  /// everything has expired by then, it applies at once.
   bool push(const TimedWrench& entry) noexcept;
 
   /// Times may be passed in any order; the last one passed is the present.
@@ -110,13 +106,12 @@ class WrenchTimeline {
     present_ns_ = INT64_MIN;
   }
   size_t size() const noexcept { return segments_.size(); }
-  /// How many frames are later than `time_ns`.
   size_t size_after(int64_t time_ns) const noexcept;
 
  private:
-  /// The part of the curve that ends in a frame. It starts from the segment before, which has
+  /// The part of the curve that ends in a frame. A segment starts from the one before, which has
   /// usually reached its own frame by then; a late frame's segment starts while the one before is
-  /// still under way, and bends away from it. After a gap it starts from zero.
+  /// still under way, and bends away from it. After a gap a segment starts from zero.
   struct Segment {
     TimedWrench frame;
     int64_t from_ns = 0;
@@ -129,8 +124,8 @@ class WrenchTimeline {
   int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
   /// When the segment to a frame that has just become known begins and ends.
   Segment segment_to(const TimedWrench& added) noexcept;
-  /// Sets the slope at the last frame, which depends on the next one, now that the next one has
-  /// become known, unless the segment to the last frame has begun.
+  /// Sets the slope at the last frame, which depends on the next one, now that the next one is
+  /// known, unless the segment to the last frame has begun.
   void join_smoothly(Segment& next) noexcept;
   /// The wrench in the segment of this age or, after the segment, that of its frame.
   Wrench value(size_t age, int64_t time_ns) const noexcept;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Linear algebra that Eigen lacks in the form needed here: singular values that are compiled once,
-/// and small systems of equations for the 1 kHz loop.
+/// Linear algebra that Eigen lacks in the form needed here.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,15 +16,15 @@ struct SingularValues {
 };
 
 /// Rank, null space and eigenvectors of a matrix that is not empty and whose size is known only at
-/// run time. Not for the 1 kHz loop, because it allocates. Compiled here once, because Eigen's
-/// decompositions take the compiler up to ten seconds in every file.
+/// run time. Not for the 1 kHz loop, because it allocates. A function compiles Eigen's
+/// decomposition once, which takes up to ten seconds in every file.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
-/// A symmetric positive definite system of a few unknowns, picked out of a larger matrix. Solves
-/// M y = b, where M consists of the `count` ≤ 8 rows and columns `index` (ascending) of Q,
-/// of which only the upper triangle is read, and b = rhs[index]. The diagonal of M is multiplied by
-/// 1 + damping. M = LDLᵀ without pivoting. Returns false when rounding has left nothing of a pivot:
-/// y is then useless.
+/// Solves a symmetric positive definite system of a few unknowns, picked out of a larger matrix, in
+/// the 1 kHz loop: M y = b, where M consists of the `count` ≤ 8 rows and columns `index`
+/// (ascending) of Q, of which only the upper triangle is read, and b = rhs[index]. The diagonal of
+/// M is multiplied by 1 + damping. M = LDLᵀ without pivoting. Returns false when rounding has left
+/// nothing of a pivot: y is then useless.
 template <int kSize>
 bool solve_ldlt(int count, const Eigen::Matrix<double, kSize, kSize>& Q, double damping,
                 const int* index, const double* rhs, double* y) noexcept {

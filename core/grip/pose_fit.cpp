@@ -10,23 +10,23 @@ namespace spidar {
 namespace {
 
 // The error after a Gauss–Newton step is about half its square over the string length: 50 µm leave
-// less than 0.06 µm at 2 cm, a hundredth of what the quantisation of an encoder leaves.
+// less than 0.06 µm at 2 cm, a hundredth of an encoder's quantisation error.
 constexpr double kLastStep_m = 50e-6;
 constexpr int kMaxTrackingSteps = 4;
-// A cold start is polished further: it decides between minima.
+// A search decides between minima, so it ends with smaller steps.
 constexpr double kLastSearchStep_m = 1e-9;
 constexpr int kMaxSearchSteps = 40;
 constexpr double kNoCost_m2 = 1e-24;
 constexpr double kLittleDamping = 1e-4;
-// No step of the search is longer: the model is linear over some centimetres only.
+// The longest step of the search: the model is linear over some centimetres only.
 constexpr double kLongestStep_m = 0.02;
-// Near the walls of the frame wrong minima go down to 20 µm; what quantisation leaves of a right
-// one is some 3 µm. In between, the other starts are tried as well and the best wins.
+// Near the walls of the frame wrong minima go down to 20 µm; quantisation leaves some 3 µm of the
+// right one. In between, the other starts are tried as well and the best wins.
 constexpr double kSureResidual_m = 10e-6;
 // Over the SPIDAR-G6X3's box the other pose is turned by 0.7 to 1.7 rad times the smallest singular
 // value (rotations scaled by the grip radius), and the ridge between them is half way.
 constexpr double kBesideStep = 1.5;
-// Nearer is the same minimum: searches end within some steps of kLastSearchStep_m.
+// A smaller distance is the same minimum: searches end within some steps of kLastSearchStep_m.
 constexpr double kSamePose_m = 1e-6;
 
 StringVector weights(int count, int left_out, int also = -1) {
@@ -117,7 +117,7 @@ PoseFit PoseFitter::levenberg_marquardt(const StringVector& lengths_m, const Pos
     const Pose pose = moved(fit.pose, step);
     NormalEquations there;
     linearise(pose, lengths_m, w, there);
-    // A step that damping has shortened says nothing about how near the minimum is.
+    // A step that damping has shortened does not show how near the minimum is.
     fit.converged =
         (length_m <= kLastSearchStep_m && damping <= kLittleDamping) || there.cost_m2 <= kNoCost_m2;
     if (there.cost_m2 < equations.cost_m2) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The searches behind the pose solver: a pose that fits measured string lengths.
 #pragma once
 
 #include <cmath>
@@ -22,16 +21,15 @@ struct NormalEquations {
   double cost_m2;  ///< Σ wᵢ rᵢ²
 };
 
-/// The result of a search.
 struct PoseFit {
   Pose pose;
-  double residual_m = 0;  ///< root mean square length error of the strings that were used
-  int iterations = 0;     ///< linearised problems solved
+  double residual_m = 0;  ///< root mean square length error of the used strings
+  int iterations = 0;     ///< the number of linearised problems
   bool converged = false;
 };
 
-/// Least squares over the string lengths. `left_out` and `also` name strings whose lengths are not
-/// used, −1 for none.
+/// Searches a pose that fits measured string lengths, by least squares. `left_out` and `also` name
+/// strings whose lengths are not used, −1 for none.
 class PoseFitter {
  public:
   explicit PoseFitter(const StringGeometry& geometry)
@@ -45,7 +43,7 @@ class PoseFitter {
     }
   }
 
-  /// Up to four Gauss–Newton steps; for a start within some millimetres.
+  /// Makes up to four Gauss–Newton steps; for a start within some millimetres.
   PoseFit gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
                        int also = -1) const noexcept;
 
@@ -53,14 +51,13 @@ class PoseFitter {
   PoseFit levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
                               int left_out) const noexcept;
 
-  /// levenberg_marquardt() from `start` and, if that does not fit, from 14 turned poses at the
+  /// Runs levenberg_marquardt() from `start` and, if that does not fit, from 14 turned poses at the
   /// centre.
   PoseFit search(const StringVector& lengths_m, const Pose& start) const noexcept;
 
   /// Near a singular J, the poses on both sides of the singular one have nearly the same lengths;
-  /// they differ by a turn in the direction of the smallest singular value. Returns the better
-  /// fitting minimum that lies beside `fit` in this direction; `converged` is false if there is
-  /// none.
+  /// they differ by a rotation in the direction of the smallest singular value. Returns the better
+  /// fitting minimum beside `fit` in this direction; `converged` is false if there is none.
   PoseFit beside(const StringVector& lengths_m, const PoseFit& fit, int left_out) const noexcept;
 
   Pose moved(const Pose& pose, const Twist& twist) const noexcept {
@@ -82,7 +79,7 @@ class PoseFitter {
   }
 
  private:
-  /// `weight` is 1 for strings that count and 0 for those that do not.
+  /// `weight` is 1 for strings that count and 0 for the others.
   void linearise(const Pose& pose, const StringVector& length_m, const StringVector& weight,
                  NormalEquations& equations) const noexcept {
     constexpr double kNoLength = 1e-12;

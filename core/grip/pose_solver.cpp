@@ -13,36 +13,37 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A hand does not reach 1000 m/s²: at 1 kHz the grip is within half a millimetre of where its
-// motion leads to. Further off, a string may be at fault in a direction in which the residual does
-// not show it; it is when the pose without it is this much nearer.
+// A hand does not reach 1000 m/s², so at 1 kHz the grip is within half a millimetre of the pose
+// that its motion predicts. A pose further off may mean a fault of a string that does not show in
+// the residual. The string counts as faulty when the pose without it is this much nearer.
 constexpr double kImplausible_m = 1e-3;
 constexpr double kMuchNearer = 0.25;
-// Another string explains the lengths as well when its fit is not this much worse.
+// Another string explains the lengths as well unless its fit is this much worse.
 constexpr double kUnambiguous = 3;
-// The length of a string that is left out is predicted from seven others, each some third of the
-// largest residual off; in bad poses they err in the same direction.
+// Seven strings predict the length of the eighth. Each of them is off by some third of the largest
+// residual; in bad poses these errors have the same direction.
 constexpr double kMisfit = 3;
 // A string that is at rest while two others have moved by this many largest residuals (about
-// encoder steps) is frozen, if it should have moved too. A fault that grows slowly has already led
-// the expectation astray when it is noticed: a frozen string is forgiven as much of its distance as
-// the others have moved, up to the second number.
+// encoder steps) is frozen, if it should have moved too. A fault that grows slowly has already
+// spoilt the expectation when it is noticed: the distance of a frozen string is reduced by the
+// motion of the others, up to the second number.
 constexpr double kMissed = 2;
 constexpr double kForgiven = 10;
 // A string that stands still while two others move by kStill largest residuals may be dead. Strings
 // do stand still for a moment, where the grip turns round or moves across them, but then the others
-// would have them where they are, to within kElsewhere; and three at once do not for long.
+// predict that length to within kElsewhere; and three at once do not stand still for long.
 constexpr double kStill = 60;
 constexpr double kLongStill = 200;
 constexpr double kElsewhere = 12;
 // Rounds of four Gauss–Newton steps, for six strings whose pose may be centimetres away.
 constexpr int kRounds = 4;
-// What the residual of seven counts in comparison with the distance: it has one degree of freedom
-// and the distance six, some of them weakly determined.
+// The weight of the residual of seven strings relative to the distance: the residual has one degree
+// of freedom and the distance six, some of them weakly determined.
 constexpr double kResidualWeight = 8;
-// A dead encoder fits by chance when the grip passes through; a mended string goes on fitting. One
-// that has moved this far, some three hundred encoder steps, and fitted on the whole way, is not
-// dead. It is not left out for longer, because without it the strings may not be able to brake.
+// A dead encoder fits by chance when the grip passes through; a repaired string continues to fit. A
+// string that has moved this far, some three hundred encoder steps, and fitted on the whole way, is
+// not dead. Leaving it out for longer is dangerous, because without it the strings may not be able
+// to brake.
 constexpr int kTicksToTrust = 100;
 constexpr double kMovedToTrust_m = 5e-3;
 
@@ -122,7 +123,7 @@ double PoseSolver::residual_m(const StringVector& lengths_m, const Pose& pose,
 }
 
 // Seven strings have one redundant length, so whichever string is left out, the others fit more or
-// less. The string at fault is the one without which the pose is nearest to the expected one, in
+// less. The faulty string is the one without which the pose is nearest to the expected one, in
 // metres; the residual of the seven counts too, and a count that stands still while the others move
 // makes its string the likelier one.
 double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& expected,
@@ -139,7 +140,7 @@ double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& e
 PoseResult PoseSolver::track_without_one(const StringVector& lengths_m,
                                          const Pose& expected) const noexcept {
   PoseResult result = rejected(PoseStatus::kNotConverged);
-  if (geometry_.count < 8) return result;  // six strings fit whatever they say
+  if (geometry_.count < 8) return result;  // six strings fit any lengths
   double least_m = kInfinity;
   for (int i = 0; i < geometry_.count; ++i) {
     const PoseFit fit = fitter_.gauss_newton(lengths_m, expected, i);
@@ -209,9 +210,9 @@ PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
   return result;
 }
 
-// A string that was left out is used again when its length has fitted the pose for some time and
-// has moved meanwhile, or has fitted for a long way: a dead encoder's count fits for as long as the
-// grip happens to stand still.
+// Uses a string again when its length has fitted the pose for some time and has moved meanwhile, or
+// has fitted for a long way: a dead encoder's count fits as long as the grip happens to stand
+// still.
 int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
   const int i = result.faulty_string;
   const bool fitting = i >= 0 && i == faulty_string_ &&
@@ -226,9 +227,9 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
 }
 
 // Two dead encoders may drag the pose along, because seven strings of which one is dead still fit
-// closely in many positions. A string is taken for dead when it has stood still while the others
-// have moved, and the pose of the others gives it another length. With a second string left out,
-// six strings remain, which fit any lengths: no pose can be trusted.
+// closely in many positions. A string counts as dead when it has stood still while the others have
+// moved, and the pose of the others gives it another length. With a second string left out, six
+// strings remain, which fit any lengths: no pose can be trusted.
 bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                                     bool tracked) const noexcept {
   int out = result.faulty_string >= 0, one = -1, other = result.faulty_string;
@@ -239,13 +240,12 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
     if (++out > 2 && missed_m > kLongStill * max_residual_m_) return true;
     (one < 0 ? one : other) = i;
   }
-  if (one < 0 || other < 0) return false;  // no more than one is out: seven fit
+  if (one < 0 || other < 0) return false;  // seven strings remain
   PoseFit fit{result.pose, 0, 0, false};
   for (int round = 0; round < kRounds && !fit.converged; ++round) {
     fit = fitter_.gauss_newton(lengths_m, fit.pose, one, other);
   }
-  // When the six do not converge, a pose that was tracked stands; one that was searched for is
-  // taken for wrong.
+  // When the six do not converge, a tracked pose stays, and a searched one counts as wrong.
   if (!fit.converged) return !tracked;
   const double apart_m = fitter_.twist(fit.pose, result.pose).norm();
   const auto elsewhere = [&](int i) {
@@ -255,15 +255,15 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   return apart_m > kImplausible_m && (elsewhere(one) || elsewhere(other));
 }
 
-// The pose next to the expected one, without the string that is known to be at fault. Near the
+// Finds the pose next to the expected one, without the string that is known to be faulty. Near the
 // walls of the frame, where the strings hardly determine one coordinate, steps stay long although
-// the lengths fit: what is as near as a hand can have moved the grip will do.
+// the lengths fit: a pose within the reach of a hand is accepted.
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
   PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
   if (!fit.converged) {
     fit.converged = fitter_.twist(expected, fit.pose).norm() <= kImplausible_m;
   }
-  // The residual of the linear model, which six strings always fit, says nothing where steps are
+  // The residual of the linear model, which six strings always fit, is meaningless where steps are
   // long or the equations nearly singular.
   fit.residual_m = std::max(fit.residual_m, residual_m(lengths_m, fit.pose, faulty_string_));
   const PoseStatus status = is_good(fit) ? PoseStatus::kSolved : PoseStatus::kNotConverged;
@@ -271,9 +271,10 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};
 }
 
-// A pose that was not found, or is further from the expected one than a hand can have moved the
-// grip, gives way to one without a string, if that is there and much nearer, and the string is
-// somewhere else there. Near the walls of the frame, poses with almost the same lengths are apart.
+// Replaces a pose that was not found, or is further from the expected one than a hand can have
+// moved the grip, by one without a string, if that pose exists and is much nearer, and the string
+// has another length there. Near the walls of the frame, poses with almost the same lengths lie
+// apart.
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;
@@ -334,7 +335,7 @@ PoseResult PoseSolver::solve(const StringVector& lengths_m) noexcept {
   if (tracked.status == PoseStatus::kBadInput) return tracked;
   const bool near = fitter_.twist(start, tracked.pose).norm() <= kImplausible_m;
   if (tracked.status == PoseStatus::kSolved && (near || !guess)) return tracked;
-  if (guess) last_ = start;  // what was found may be one of two
+  if (guess) last_ = start;  // the search may have found one of two poses
   PoseResult located = locate(lengths_m);
   located.iterations += tracked.iterations;
   return located;

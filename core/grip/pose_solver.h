@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The grip's pose from the lengths of its strings.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +11,7 @@
 
 namespace spidar {
 
-/// For each string, remembers the lengths of all strings at the time when its own length last
-/// changed.
+/// Stores, for each string, the lengths of all strings at the last change of its own length.
 class FrozenCounts {
  public:
   void update(const StringVector& lengths_m, int count) noexcept {
@@ -31,7 +29,7 @@ class FrozenCounts {
   /// Whether string `i` did not change with the last update.
   bool is_still(int i) const noexcept { return still_ >> i & 1; }
 
-  /// How far the other strings have moved since string `i` changed last, in metres: the second
+  /// How far the other strings have moved since string `i` last changed, in metres: the second
   /// largest distance, because a single count may have jumped.
   double missed_m(const StringVector& lengths_m, int count, int i) const noexcept {
     const StringVector& then = at_change_m_[static_cast<size_t>(i)];
@@ -45,7 +43,7 @@ class FrozenCounts {
   }
 
  private:
-  static StringVector never() noexcept { return StringVector::Constant(-1); }  // no length
+  static StringVector never() noexcept { return StringVector::Constant(-1); }  // not a length
 
   unsigned still_ = 0;
   std::array<StringVector, kMaxStrings> at_change_m_{never(), never(), never(), never(),
@@ -54,28 +52,29 @@ class FrozenCounts {
 
 enum class PoseStatus {
   kSolved,
-  kNotConverged,  ///< the lengths fit no pose that was found: the last good pose is returned
-  /// The lengths fit two poses, or fit one only with a string that may be dead: the last good pose
-  /// is returned.
+  kNotConverged,  ///< no pose was found that fits the lengths: returns the last good pose
+  /// The lengths fit two poses, or fit one only with a string that may be dead: returns the last
+  /// good pose.
   kAmbiguous,
-  kBadInput,  ///< a length is negative or not finite: the last good pose is returned
+  kBadInput,  ///< a length is negative or not finite: returns the last good pose
 };
 
 struct PoseResult {
   Pose pose;
-  double residual_m = 0;  ///< root mean square length error of the strings that were used
-  int iterations = 0;     ///< linearised problems solved
-  /// The string whose length does not fit the pose of the seven others, which is the pose returned:
-  /// it is slack, its count has jumped, or its encoder is dead. −1 when all strings fit.
+  double residual_m = 0;  ///< root mean square length error of the used strings
+  int iterations = 0;     ///< the number of linearised problems
+  /// The string whose length does not fit the pose of the seven others, which is the returned pose:
+  /// the string is slack, its count has jumped, or its encoder is dead. −1 when all strings fit.
   int faulty_string = -1;
   PoseStatus status = PoseStatus::kBadInput;
 };
 
-/// Least squares over the string lengths. No allocation, no exceptions after construction.
+/// Computes the grip's pose from the lengths of its strings by least squares. No allocation, no
+/// exceptions after construction.
 ///
 /// Limits of what the lengths determine:
 /// - Near the walls of the frame, where the structure matrix is nearly singular, two poses can have
-///   lengths that differ by less than the measurement error. locate() looks for the second pose and
+///   lengths that differ by less than the measurement error. locate() searches the second pose and
 ///   reports kAmbiguous; track() stays with the pose that continues the motion.
 /// - Eight strings have two redundant lengths, so that a fault shows in two numbers only. A fault
 ///   that the other seven strings can follow shows when the grip moves on. Two strings whose faults
@@ -89,7 +88,7 @@ class PoseSolver {
   /// for the coarsest encoder of the known devices.
   static constexpr double kMaxResidual_m = 20e-6;
 
-  /// The smallest least_stiffness() of a usable geometry: by how much the weakest of the grip's six
+  /// The smallest least_stiffness() of a usable geometry: how much the weakest of the grip's six
   /// motions at the centre changes the lengths of the strings, relative to a string that follows
   /// that motion alone. With less, no pose could be trusted. The shipped profiles have 0.2 or more.
   static constexpr double kMinStiffness = 0.02;
@@ -97,30 +96,31 @@ class PoseSolver {
   /// the grip's origin.
   static double least_stiffness(const StringGeometry& geometry);
 
-  /// Throws std::invalid_argument when the geometry has fewer than six strings, all of them end in
-  /// the grip's origin, it has less than kMinStiffness, or `max_residual_m` is not positive.
-  /// `max_residual_m`: one encoder step, or what a device whose geometry is known less well needs;
-  /// a fault shows when a length is off by about six times as much.
+  /// Throws std::invalid_argument when the geometry has fewer than six strings, when all of them
+  /// end in the grip's origin, when it has less than kMinStiffness, or when `max_residual_m` is not
+  /// positive. `max_residual_m` is one encoder step, or more for a device whose geometry is known
+  /// less well; a fault shows when a length is off by about six times as much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
-  /// For every tick: track(), and locate() when tracking fails, or when tracking starts from a
-  /// guess and leads away from it. The slowest case is lengths that fit no pose; `spidar-bench
+  /// For every tick: calls track(), and locate() when tracking fails, or when tracking starts from
+  /// a guess and leads away from it. The slowest case is lengths that fit no pose; `spidar-bench
   /// pose` measures it.
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
-  /// The pose near the last one, by Gauss–Newton from the last pose moved on by the last motion.
-  /// With eight strings, one that does not fit is left out and reported; it is used again when its
-  /// length has fitted for 100 calls and has moved meanwhile, or has fitted while it moved by 5 mm.
+  /// Finds the pose near the last one, by Gauss–Newton from the last pose moved on by the last
+  /// motion. With eight strings, one that does not fit is left out and reported. The string is used
+  /// again when its length has fitted for 100 calls and has moved meanwhile, or has fitted while it
+  /// moved by 5 mm.
   PoseResult track(const StringVector& lengths_m) noexcept;
 
-  /// The pose anywhere in the frame, by Levenberg–Marquardt from the last pose and from turned
-  /// poses at the centre.
+  /// Finds the pose anywhere in the frame, by Levenberg–Marquardt from the last pose and from
+  /// turned poses at the centre.
   PoseResult locate(const StringVector& lengths_m) noexcept;
 
   /// Sets where the next search starts. Drops the motion, but not which counts have stood still.
   void search_from(const Pose& pose) noexcept;
 
-  /// For another device, or one that was switched on again: drops everything.
+  /// Drops everything, for another device, or one that was switched on again.
   void reset(const Pose& pose = {}) noexcept;
 
  private:
@@ -130,7 +130,6 @@ class PoseSolver {
                           int left_out) const noexcept;
   bool hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                           bool tracked) const noexcept;
-  /// Root mean square length error at a pose.
   double residual_m(const StringVector& lengths_m, const Pose& pose, int left_out) const noexcept;
   double misfit_m(const StringVector& lengths_m, const Pose& pose, int string) const noexcept;
   PoseResult follow(const StringVector& lengths_m, const Pose& expected) const noexcept;
@@ -150,10 +149,10 @@ class PoseSolver {
   double max_residual_m_;
   Pose last_;
   Twist motion_ = Twist::Zero();  ///< from the pose before the last to the last
-  bool tracking_ = false;         ///< the last call found a pose
+  bool tracking_ = false;         ///< whether the last call found a pose
   FrozenCounts counts_;
   int faulty_string_ = -1;
-  int fitting_ticks_ = 0;      ///< for how long the length of faulty_string_ has fitted again
+  int fitting_ticks_ = 0;      ///< how long the length of faulty_string_ has fitted again
   double fitting_from_m_ = 0;  ///< its length when that began
 };
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Geometry of the strings: lengths and structure matrix, the room that the grip has between them,
-/// and how large a picture is in it.
 #pragma once
 
 #include <array>
@@ -10,7 +8,7 @@
 
 namespace spidar {
 
-/// T_D_G: maps points of the grip frame G to the device frame D.
+/// T_D_G, which maps points of the grip frame G to the device frame D.
 struct Pose {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -27,14 +25,14 @@ using StructureMatrix = Eigen::Matrix<double, 6, kMaxStrings>;
 struct StringGeometry {
   int count = 0;                                      ///< 1 … kMaxStrings
   std::array<Eigen::Vector3d, kMaxStrings> exit_m{};  ///< where the string leaves the frame, in D
-  std::array<Eigen::Vector3d, kMaxStrings> grip_m{};  ///< where it is tied to the grip, in G
+  /// Where the string is tied to the grip, in G.
+  std::array<Eigen::Vector3d, kMaxStrings> grip_m{};
 
   /// Mean distance of the grip points from the grip's origin, metres: the lever ℓ that makes
   /// torques comparable with forces.
   double grip_radius_m() const;
 };
 
-/// Lengths from exit to grip point, metres.
 StringVector string_lengths_m(const StringGeometry& geometry, const Pose& pose);
 
 /// W with wrench = W · tensions: column i is [u_i; (R g_i) × u_i], u_i the unit vector from the
@@ -44,7 +42,7 @@ StructureMatrix structure_matrix(const StringGeometry& geometry, const Pose& pos
 /// Half the size of the box about the workspace's centre that holds the exits of the strings.
 Eigen::Vector3d half_frame_m(const StringGeometry& geometry);
 
-/// How far the grip is to move from the workspace's centre to each side: half of half_frame_m(),
+/// How far the grip may move from the workspace's centre to each side: half of half_frame_m(),
 /// where the strings can still hold it (docs/strings.md).
 inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
@@ -52,7 +50,7 @@ inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
 }
 
 /// The geometry, stretched until half_room_m() is `half_m` in the axes in which `half_m` is above
-/// 0: for a device without strings, which has room of its own.
+/// 0: for a device without strings, which has its own workspace.
 inline StringGeometry with_room(StringGeometry geometry, const std::array<double, 3>& half_m) {
   const Eigen::Vector3d before_m = half_room_m(geometry);
   for (int axis = 0; axis < 3; ++axis) {

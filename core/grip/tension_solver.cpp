@@ -55,17 +55,17 @@ struct TensionObjective {
 
 constexpr int kStrings = kMaxStrings;
 
-// A violation of the optimality conditions that counts as none, relative to the terms of the
-// gradient, which is itself rounded to some 1e-15 of them.
+// A smaller violation of the optimality conditions counts as none, relative to the terms of the
+// gradient, which itself is rounded to some 1e-15 of them.
 constexpr double kTolerance = 2e-14;
-// What still is a solution when rounding keeps it from getting there.
+// The largest violation that still counts as a solution when rounding prevents a smaller one.
 constexpr double kAccepted = 1e-12;
 constexpr int kMaxIterations = 24;
-// A string leaves its bound when its gradient is this fraction of the largest one among those that
-// want to leave: one at a time takes more rounds, all at once sends some of them back.
+// A string leaves its bound when its gradient is this fraction of the largest one among the strings
+// that should leave: one at a time takes more rounds, all at once sends some of them back.
 constexpr double kReleaseFraction = 0.4;
-// Added to the diagonal (as a fraction of it) when ε is lost beside it; rises until the pivots are
-// sound.
+// Added to the diagonal (as a fraction of it) when rounding loses ε beside it; rises until the
+// pivots are sound.
 constexpr double kMinDamping = 0x1p-48;
 
 // Feasible tensions, their gradient, and which strings may move (bit i: string i).
@@ -79,16 +79,17 @@ struct Bounds {
   const StringVector& low;
   const StringVector& high;
 
-  // Finite, and not crossed: the difference of anything else is infinite, NaN or negative.
+  // The difference of any other bounds than finite ones that are not crossed is infinite, NaN or
+  // negative.
   bool are_valid() const {
     const StringVector room_N = high - low;
     return room_N.allFinite() && room_N.minCoeff() >= 0;
   }
 
-  // NaN ends at the lower bound.
+  // NaN becomes the lower bound.
   double clamp(int i, double t) const { return std::min(std::max(low[i], t), high[i]); }
 
-  // Strings that have room between their bounds.
+  // Strings whose bounds differ.
   unsigned apart() const {
     unsigned strings = 0;
     for (int i = 0; i < kStrings; ++i) strings |= static_cast<unsigned>(low[i] < high[i]) << i;
@@ -96,7 +97,7 @@ struct Bounds {
   }
 };
 
-// The nearest feasible point; free are the strings that are at no bound.
+// Starts at the nearest feasible point; strings that are at no bound are free.
 void start(const Bounds& bounds, const StringVector& tension, Iterate& x) {
   x.free = 0;
   for (int i = 0; i < kStrings; ++i) {
@@ -123,7 +124,6 @@ StringVector tension_at_rest(const TensionProblem& p) {
   return t;
 }
 
-// Each string's violation of its optimality condition.
 StringVector violations(const Bounds& bounds, const Iterate& x) {
   StringVector violation;
   for (int i = 0; i < kStrings; ++i) {
@@ -156,7 +156,7 @@ Step newton_step(const TensionObjective& objective, const Iterate& x) {
   return step;
 }
 
-// Goes the whole step, clipped to the bounds. Returns the strings that were clipped.
+// Takes the whole step, clipped to the bounds. Returns the clipped strings.
 unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, Iterate& next) {
   next.t = x.t;
   unsigned clipped = 0;
@@ -170,12 +170,13 @@ unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, It
   return clipped;
 }
 
-// Change of the objective from `x` to `next`; exact, as the objective is quadratic.
+// The change of the objective from `x` to `next`, which is exact because the objective is
+// quadratic.
 double change(const Iterate& x, const Iterate& next) {
   return (next.t - x.t).dot(x.gradient + next.gradient) / 2;
 }
 
-// Goes along the step to the first bound in the way, and holds the string that meets it.
+// Takes the step up to the first bound, and holds the string that meets it.
 void go_to_first_bound(const Bounds& bounds, const Step& step, Iterate& x) {
   double fraction = 1;
   int first = -1;
@@ -216,7 +217,7 @@ unsigned strings_to_release(const Iterate& x, const StringVector& violation, dou
 class Search {
  public:
   int iterations = 0;
-  double violation = 0;  // of the optimality conditions, the largest
+  double violation = 0;  // the largest one, of the optimality conditions
   double scale = 0;      // of the terms that cancel in the gradient
 
   Search(const TensionObjective& objective, const Bounds& bounds, const StringVector& tension)
@@ -224,7 +225,7 @@ class Search {
     start(bounds, tension, *x_);
   }
 
-  // Without knowledge of which strings will be at a bound, all that have room are free at first.
+  // Which strings end at a bound is unknown, so all whose bounds differ are free at first.
   void free_all() { x_->free = bounds_.apart(); }
 
   const Iterate& result() const { return *x_; }
@@ -237,7 +238,8 @@ class Search {
       const Step step = newton_step(objective_, *x_);
       const unsigned clipped = go_clipped(bounds_, *x_, step, *next_);
       objective_.evaluate(next_->t, next_->residual, next_->gradient);
-      // The first round may raise the objective: the start is only a guess. Afterwards it falls.
+      // The first round may raise the objective, because the start is only a guess. Later rounds
+      // lower it.
       if (clipped && iterations > 1 && !(change(*x_, *next_) < 0)) {
         go_to_first_bound(bounds_, step, *x_);
         objective_.evaluate(x_->t, x_->residual, x_->gradient);
@@ -249,9 +251,9 @@ class Search {
       violation = violation_of.maxCoeff();
       scale = objective_.gradient_scale(x_->t);
       if (violation <= kTolerance * scale) return;
-      // After a rejected step, strings are released only at the minimum over the free ones, and
-      // one at a time. Such a string does move inwards, so that every release lowers the objective
-      // and no set of free strings comes twice: the search ends.
+      // After a rejected step, strings are released only at the minimum over the free ones, and one
+      // at a time. Such a string does move inwards, so that every release lowers the objective and
+      // no set of free strings comes twice: the search ends.
       if (cautious && clipped && x_->free) continue;
       x_->free |= strings_to_release(*x_, violation_of, cautious ? 1.0 : kReleaseFraction);
       cautious = false;
@@ -272,7 +274,7 @@ bool is_valid(const TensionProblem& problem, const TensionObjective& objective,
          objective.is_finite() && bounds.are_valid();
 }
 
-// The result for a problem that is not valid, or whose numbers overflow on the way.
+// The result for a problem that is not valid, or whose numbers overflow.
 TensionResult no_solution(const TensionProblem& problem) {
   TensionResult result;
   result.tension_N = tension_at_rest(problem);
@@ -305,8 +307,8 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   const Bounds bounds{problem.t_min_N, problem.t_max_N};
   TensionResult result;
   if (is_valid(problem, objective, bounds)) {
-    // When nothing pulls, the solution may be zero, and what is left of the last tensions has
-    // nothing to be compared with.
+    // When nothing pulls, the solution may be zero, which gives the rest of the last tensions no
+    // scale.
     const bool warm = warm_ && objective.has_pull();
     Search search(objective, bounds, warm ? last_N_ : problem.t_ref_N);
     if (!warm) search.free_all();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// String tensions for a wanted wrench.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,10 +9,10 @@
 
 namespace spidar {
 
-/// Minimise ½‖S(W t − f)‖² + ½ε‖t − t_ref‖² subject to t_min ≤ t ≤ t_max,
-/// with S = diag(1, 1, 1, 1/ℓ, 1/ℓ, 1/ℓ). Strictly convex, so there is exactly one solution.
+/// Minimise ½‖S(W t − f)‖² + ½ε‖t − t_ref‖² subject to t_min ≤ t ≤ t_max, with S = diag(1, 1, 1,
+/// 1/ℓ, 1/ℓ, 1/ℓ). Strictly convex, so there is exactly one solution.
 struct TensionProblem {
-  int count = kMaxStrings;  ///< strings in use, 1 … kMaxStrings; entries beyond are ignored
+  int count = kMaxStrings;  ///< used strings, 1 … kMaxStrings; entries beyond are ignored
   StructureMatrix W = StructureMatrix::Zero();
   Wrench wrench;  ///< f
   StringVector t_min_N = StringVector::Zero();
@@ -25,7 +24,7 @@ struct TensionProblem {
 
 enum class TensionStatus {
   kSolved,
-  kIterationLimit,  ///< tensions are within bounds but not optimal
+  kIterationLimit,  ///< the tensions are within bounds but not optimal
   /// NaN, infinity, or a number whose square is not finite; t_min > t_max; ε or ℓ not positive;
   /// count not 1 … kMaxStrings
   kBadInput,
@@ -36,22 +35,22 @@ struct TensionResult {
   StringVector tension_N = StringVector::Zero();
   Wrench delivered;       ///< W t
   double residual_N = 0;  ///< ‖S(W t − f)‖
-  /// Largest violation of the optimality conditions, that is of Q t = c for free strings and of its
-  /// sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
+  /// The largest violation of the optimality conditions, that is of Q t = c for free strings and of
+  /// its sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
   /// TensionObjective in tension_solver.cpp. kSolved means 1e-12 or less.
   double kkt_residual = 0;
   int iterations = 0;  ///< at most 24
   TensionStatus status = TensionStatus::kBadInput;
 };
 
-/// Solves to rounding accuracy at any scale of wrench, tensions and units, even when ε vanishes
-/// beside WᵀS²W. Starts from the last solution, so that one iteration is enough in steady motion;
-/// the result depends on it only by rounding. No allocation, no exceptions.
+/// Computes string tensions for a wanted wrench, to rounding accuracy at any scale of wrench,
+/// tensions and units, even when ε vanishes beside WᵀS²W. Starts from the last solution, so that
+/// one iteration is enough in steady motion; the result depends on the start only by rounding. No
+/// allocation, no exceptions.
 class TensionSolver {
  public:
   TensionResult solve(const TensionProblem& problem) noexcept;
 
-  /// Drops the last solution.
   void reset() noexcept { warm_ = false; }
 
  private:

@@ -20,7 +20,7 @@ namespace {
 
 /// Points followed at once, as in the usual examples of Lucas–Kanade.
 constexpr int kMaxFeatures = 200;
-/// New points are selected when fewer than this fraction of those selected last are left …
+/// New points are selected when fewer than this fraction of the last selection is left …
 constexpr double kThinnedOut = 0.7;
 /// … and after this many frames in any case, because something may have entered.
 constexpr int kSelectionInterval = 5;
@@ -30,10 +30,10 @@ constexpr int kSelectionInterval = 5;
 constexpr double kFoundAfterCut = 0.1;
 constexpr size_t kMinForCut = 10;
 
-constexpr int kNeighbourhood_px = 3;  // neighbourhood of eq. 1
+constexpr int kNeighbourhood_px = 3;  // of eq. 1
 constexpr int kSobel_px = 3;
-/// Minimum RMS gradient in the weakest direction, grey levels per pixel. Weaker structure is noise
-/// and rounding, whatever the rest of the picture contains.
+/// The minimum RMS gradient in the weakest direction, grey levels per pixel. Weaker structure is
+/// noise and rounding, whatever the rest of the picture contains.
 constexpr double kMinWeakestGradient = 1.0;
 /// OpenCV scales the Sobel sums by 1 / (4 · block · 255) before it adds block² squares: a gradient
 /// of g grey levels per pixel in both directions gives (2 g / 255)².
@@ -45,25 +45,24 @@ constexpr int kWindow_px = 15;
 constexpr int kMaxPyramidLevel = 3;  // a level reaches about half a window: 7 px · 2³ in all
 /// OpenCV's smallest eigenvalue is the mean squared gradient (grey levels per pixel) / 1024.
 constexpr double kMinEigenvalue = kMinWeakestGradient * kMinWeakestGradient / 1024;
-/// Largest forward–backward error, px. Correct matches return to within a few hundredths of a
+/// The largest forward–backward error, px. Correct matches return to within a few hundredths of a
 /// pixel, wrong ones to anywhere.
 constexpr double kMaxReturn_px = 0.2;
-/// Mean absolute difference of the windows due to rounding and resampling, grey levels.
+/// The mean absolute difference of the windows due to rounding and resampling, grey levels.
 constexpr double kRounding = 1.0;
 
-/// Settings of one search for points.
 struct PointSearch {
-  int level;      ///< coarsest pyramid level
-  bool expected;  ///< start at the last displacement, not at the old position
-  /// Largest difference of the windows, as a fraction of the contrast in them. The limit is
+  int level;      ///< the coarsest pyramid level
+  bool expected;  ///< starts at the last displacement, not at the old position
+  /// The largest difference of the windows, as a fraction of the contrast in them. The limit is
   /// relative because a fixed one would reject textured points in a noisy film and accept any
   /// position in a flat one.
   double max_difference;
 };
 
 /// Few points change their motion much: the two finest levels find them. This also keeps a periodic
-/// texture from jumping by a period, to which the coarse levels are prone. Only a clear match
-/// counts. For the other points all levels are searched.
+/// texture from jumping by a period, as the coarse levels do. Only a clear match counts. For the
+/// other points all levels are searched.
 constexpr PointSearch kSearches[] = {{1, true, 0.12}, {kMaxPyramidLevel, false, 0.4}};
 
 /// A point that is followed, in the reduced picture.
@@ -73,7 +72,7 @@ struct Feature {
   cv::Point2f moved;  ///< displacement since the previous picture; 0 for a new point
 };
 
-/// Margin at the border in which points are not followed: their windows would contain mirrored
+/// The margin at the border in which points are not followed: their windows would contain mirrored
 /// pixels, which move in the opposite direction. A quarter keeps half of a tiny picture usable.
 int border_px(const cv::Mat& image) {
   return std::min({kWindow_px / 2, image.cols / 4, image.rows / 4});
@@ -113,7 +112,7 @@ struct Flow {
 };
 
 /// Searches those of `features` that are not `found` yet, forwards, and back in the same way. Moves
-/// them and marks them.
+/// and marks the found ones.
 void follow_missing(const std::vector<cv::Mat>& before, const std::vector<cv::Mat>& now,
                     const PointSearch& search, std::vector<Feature>& features,
                     std::vector<bool>& found) {
@@ -143,7 +142,7 @@ void follow_missing(const std::vector<cv::Mat>& before, const std::vector<cv::Ma
   }
 }
 
-/// Both have their origin at the centre of the first pixel.
+/// Both origins are at the centre of the first pixel.
 ImagePoint in_frame(const cv::Point2f& reduced, int factor) {
   const auto scale = static_cast<float>(factor);
   return {(reduced.x + 0.5f) * scale - 0.5f, (reduced.y + 0.5f) * scale - 0.5f};
@@ -159,7 +158,7 @@ struct OpenCvTracker::Impl {
   std::vector<cv::Mat> now;
   std::vector<Feature> features;
   uint32_t next_id = 0;
-  size_t selected = 0;  // points after the last selection
+  size_t selected = 0;  // the points after the last selection
   int frames_since_selection = 0;
   OpenCvTracker::Result result;
 
@@ -231,16 +230,14 @@ bool OpenCvTracker::Impl::selection_is_due() const {
          frames_since_selection >= kSelectionInterval;
 }
 
-/// The strongest corners of the picture (eq. 1). One at which a point is followed already is that
-/// point; a point where there is no corner any more is dropped. So an object that enters gets its
-/// fraction.
+/// Selects the strongest corners of the picture (eq. 1). A corner near a followed point is that
+/// point; a point without a corner is dropped. So a new object gets its fraction of the points.
 void OpenCvTracker::Impl::select() {
   const cv::Mat& image = now[0];
   // Closer to the border the eigenvalues include mirrored pixels.
   const int border = std::max(border_px(image), kNeighbourhood_px / 2 + kSobel_px / 2);
   const cv::Rect middle(border, border, image.cols - 2 * border, image.rows - 2 * border);
-  // A distance beyond the picture's diagonal has no further effect; the bound keeps it within an
-  // int.
+  // A distance beyond the picture's diagonal has no further effect; the bound fits an int.
   const double apart_px =
       std::min(settings.min_distance_px * reduced.height() / kReferenceHeight_px / reduced.factor(),
                std::hypot(image.cols, image.rows));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The tracker of the paper: Shi–Tomasi points and pyramidal Lucas–Kanade.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +13,9 @@ namespace spidar {
 
 /// How OpenCvTracker selects points (Shi–Tomasi).
 struct TrackerSettings {
-  double quality_level = 0.01;  ///< fraction of the strongest corner's eigenvalue, 0 … 1
-  /// Minimum distance between selected features, in pixels of the reference frame; finite and ≥ 0.
+  double quality_level = 0.01;  ///< of the strongest corner's eigenvalue, 0 … 1
+  /// The minimum distance between selected features, in pixels of the reference frame; finite and ≥
+  /// 0.
   double min_distance_px = 10.0;
 
   bool operator==(const TrackerSettings& o) const {
@@ -41,21 +41,21 @@ struct FollowedPoint {
   ImagePoint to;
 };
 
-/// Follows points in a picture reduced to about 480 px, and builds one pyramid per frame, which is
-/// reused for the next frame. Drops points that leave the picture, are not found, fail the
-/// forward–backward check, or look different. Selects new points when few are left and every few
-/// frames, so that objects that enter are found.
+/// The tracker of the paper, with Shi–Tomasi points and pyramidal Lucas–Kanade. Follows points in a
+/// picture reduced to about 480 px, and builds one pyramid per frame, which is reused for the next
+/// frame. Drops points that leave the picture, are not found, fail the forward–backward check, or
+/// look different. Selects new points when few are left and every few frames, so that objects that
+/// enter are found.
 class OpenCvTracker {
  public:
   struct Result {
-    std::vector<FollowedPoint> points;  ///< points found in both frames; empty with kFirst
-    int features = 0;                   ///< number of points to look for in the next frame
+    std::vector<FollowedPoint> points;  ///< found in both frames; empty with kFirst
+    int features = 0;                   ///< the points to look for in the next frame
     /// With kSame the next frame will be compared with the same picture as this one. Never
     /// kWaiting.
     Likeness picture = Likeness::kFirst;
   };
 
-  /// Throws as validate() does.
   explicit OpenCvTracker(const TrackerSettings& settings = {});
   ~OpenCvTracker();
 
@@ -70,7 +70,7 @@ class OpenCvTracker {
   /// Discards the previous frame, so that the next one starts anew without motion.
   void reset();
 
-  /// Takes effect with the next frame. Throws as validate() does, and then changes nothing.
+  /// Applies from the next frame on. Throws as validate() does, and then changes nothing.
   void configure(const TrackerSettings& settings);
 
  private:

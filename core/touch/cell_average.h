@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The mean of a picture's samples in each cell of a height field.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +20,7 @@ class CellSpans {
   struct Span {
     int first = 0;
     int count = 0;
-    size_t weight = 0;  // index of its first weight
+    size_t weight = 0;  // the index of its first weight
   };
 
   /// Allocates only when `samples` differs from the last call. `samples` and `cells` ≥ 1.

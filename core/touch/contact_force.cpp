@@ -10,7 +10,7 @@
 namespace spidar::touch {
 namespace {
 
-/// Slope of the texture at the position of the grip, not of the proxy, which friction can hold
+/// The slope of the texture at the position of the grip, not of the proxy, which friction can hold
 /// back.
 Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
                               const Eigen::Vector3d& grip_m) noexcept {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The contact force on a grip that touches a relief.
 #pragma once
 
 #include <limits>
@@ -45,9 +44,9 @@ struct ContactSettings {
 /// Throws std::invalid_argument naming the setting that is out of range.
 void validate(const ContactSettings& settings);
 
-/// The sum of a spring to the proxy, a damper, and the texture as a force along the surface,
-/// bounded by EnergyBudget. The texture is not part of the relief because the proxy would then snap
-/// from valley to valley.
+/// The contact force on a grip that touches a relief: the sum of a spring to the proxy, a damper,
+/// and the texture as a force along the surface, bounded by EnergyBudget. The texture is not part
+/// of the relief because the proxy would then snap from valley to valley.
 class ContactForce {
  public:
   /// Cutoff frequency of the first-order low-pass on the velocity.
@@ -66,12 +65,11 @@ class ContactForce {
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;
 
-  /// After tick(): see EnergyBudget.
+  /// Call this after tick(): see EnergyBudget.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
     budget_.deliver(given, turn_rad);
   }
 
-  /// Velocity of the grip after the low-pass.
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }
   const Proxy& proxy() const noexcept { return proxy_; }
   /// Discards all state, for example after the pose was lost.

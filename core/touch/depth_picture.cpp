@@ -115,7 +115,8 @@ void DepthPicture::read_row(const ImageView& depth, int y, bool has_holes,
   }
 }
 
-/// The lower and the upper one, rounded to whole samples. At least one cell must not be a hole.
+/// The lower and the upper percentile, rounded to whole samples. At least one cell must not be a
+/// hole.
 std::pair<double, double> DepthPicture::percentiles() noexcept {
   sorted_.clear();
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(sorted_),
@@ -128,7 +129,7 @@ std::pair<double, double> DepthPicture::percentiles() noexcept {
   return {nth(sorted_.begin() + outside), nth(sorted_.end() - 1 - outside)};
 }
 
-/// Whether more than kCut of the cells lie beyond the ends that are estimated.
+/// Whether more than kCut of the cells lie beyond the estimated ends.
 bool DepthPicture::is_cut(const DepthSettings& settings) const noexcept {
   const double sign = settings.disparity ? -1 : 1;
   const double nearest = settings.near_sample < 0 ? sign * near_ : -HUGE_VAL;

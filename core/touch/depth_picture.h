@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Converts depth samples to a nearness level for each cell of a height field.
 #pragma once
 
 #include <cstddef>
@@ -21,16 +20,16 @@ enum class DepthLayout { kRight, kBelow };
 ImageView picture_half(const ImageView& packed, DepthLayout layout) noexcept;
 ImageView depth_half(const ImageView& packed, DepthLayout layout) noexcept;
 
-/// Meaning of the samples. A distance has near < far; a disparity, which grows towards the viewer,
-/// has near > far.
+/// The meaning of the samples. A distance has near < far; a disparity, which grows towards the
+/// viewer, has near > far.
 struct DepthSettings {
   bool disparity = false;
   /// The sample values of the nearest and the farthest depth, at most 65535; samples outside are
   /// clamped to this range. A value below 0 means that the end is estimated from the pictures.
   double near_sample = -1;
   double far_sample = -1;
-  /// Samples of 0, and words of 65535, mean that nothing was measured. Set to false for drawn or
-  /// computed depth, as in 2D+Z films, where these values are the ends of the range.
+  /// Samples of 0, and words of 65535, mean that nothing was measured. Set this to false for drawn
+  /// or computed depth, as in 2D+Z films, where these values are the ends of the range.
   bool has_holes = true;
 };
 
@@ -38,8 +37,9 @@ struct DepthSettings {
 /// and far in the wrong order.
 void validate(const DepthSettings& settings);
 
-/// Reads depth images. Allocates only when the size changes. Reads at most four evenly spaced
-/// samples per cell, so that the cost does not grow with the size.
+/// Converts depth samples to a nearness level for each cell of a height field. Allocates only when
+/// the size changes. Reads at most four evenly spaced samples per cell, so that the cost does not
+/// grow with the size.
 ///
 /// An end of the range that is not set is a percentile of the cells: 2 % of them are nearer than
 /// near, 2 % farther than far. Both ends follow the pictures with a time constant of kRange_s, so

@@ -23,7 +23,7 @@ void EnergyBudget::update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d&
 
 double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& path,
                             double dt_s) const noexcept {
-  // At rest before the first tick.
+  // The grip is at rest before the first tick.
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
@@ -38,7 +38,7 @@ double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& p
   const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(since);
   const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
   const double left_J = std::max(0.0, left_J_ - dt_s * mean_.force_N.dot(then_m_s));
-  // What is given for it may help a motion that it is against.
+  // The delivered force may help a motion against which the wanted one acts.
   const double out_m_s = then_m_s.dot(direction);
   const double out_if_given_m_s = given_ ? then_m_s.dot(*given_) : out_m_s;
   const double most_m_s = std::max(out_m_s, out_if_given_m_s);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Limits the energy that a contact returns to the hand.
 #pragma once
 
 #include <limits>
@@ -20,18 +19,18 @@ struct ForcePath {
   double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
   double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
-  /// How long a force is held until the next one. The next tick may be late, and `dt_s` does not
+  /// How long a force is held until the next one. The next tick may be late, which `dt_s` does not
   /// tell.
   double tick_s = 0.001;
   /// The longest tick that counts in the safety chain's slew limit.
   double longest_tick_s = 0.002;
 };
 
-/// Tracks the energy that a contact has absorbed from the hand, and bounds the force so that the
-/// contact returns no more than that. It is a passivity observer and controller (B. Hannaford and
-/// J.-H. Ryu, Time-domain passivity control of haptic interfaces, IEEE Transactions on Robotics and
-/// Automation 18, 2002) that predicts. Observing the past is not enough: a force with limited slew
-/// and a lag still pushes after the energy is spent.
+/// Limits the energy that a contact returns to the hand: tracks the energy that the contact has
+/// absorbed, and bounds the force so that the contact returns no more. It is a passivity observer
+/// and controller (B. Hannaford and J.-H. Ryu, Time-domain passivity control of haptic interfaces,
+/// IEEE Transactions on Robotics and Automation 18, 2002) that predicts. Observing the past is not
+/// enough: a force with limited slew and a lag still pushes after the energy is spent.
 ///
 /// A force F that is reduced from the next tick on at the slew limit still delivers the impulse J =
 /// lag · (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v,
@@ -65,33 +64,32 @@ class EnergyBudget {
                const ForcePath& path, double dt_s) noexcept;
 
   /// Corrects the force of this tick: the device gives `given`, which may be less, point elsewhere
-  /// and have a torque. Without this call it is taken to give what it is told; also beside another
-  /// force, because it cannot be told what is given for which. The grip has turned by `turn_rad`
-  /// since the exchange of the last tick.
+  /// and have a torque. Without this call, and beside another force, whose part is unknown, the
+  /// device is assumed to give the command. The grip has turned by `turn_rad` since the exchange of
+  /// the last tick.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
 
   /// Estimated energy absorbed from the hand in this contact and not yet returned.
   double left_J() const noexcept { return left_J_; }
-  /// Estimated contact force on the grip.
   const Eigen::Vector3d& force_N() const noexcept { return acting_.force_N; }
 
  private:
   void hold(const Wrench& own) noexcept;
 
-  // Number of ticks, if they are on time, over which the acceleration is measured.
+  // The number of ticks, if they are on time, over which the acceleration is measured.
   static constexpr int kSlope = 3;
 
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
-  // A smaller force does not tell where it leads: the steps of a D/A are 5 mN.
+  // The direction of a smaller force is uncertain: the steps of a D/A converter are 5 mN.
   static constexpr double kTelling_N = 0.05;
-  // Short ticks follow one that is late, so that more of them fit into the time of kSlope.
+  // Short ticks follow a late one, so that more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
   History<double, kKept> dt_s_;  ///< of the last ticks, in which the velocity changed
   Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
-  double fading_ = 0;     ///< of a force that was there before the last tick, in the tick
+  double fading_ = 0;     ///< the part of an earlier force that remains in the tick
   double lag_ticks_ = 0;  ///< the lag, in ticks
   Wrench begun_;          ///< on the grip, when the last tick began
   Wrench acting_;         ///< on the grip, at the end of the last tick

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A smooth height field over the picture.
 #pragma once
 
 #include <cmath>
@@ -11,7 +10,6 @@
 
 namespace spidar::touch {
 
-/// Height and slope of a surface at one position.
 struct SurfacePoint {
   double z_m = 0;
   /// dz/dx and dz/dy, without a unit.
@@ -23,8 +21,9 @@ struct SurfacePoint {
   }
 };
 
-/// Heights z in the device frame, over a picture whose centre is the device's origin: columns from
-/// left (−x) to right, rows from the top (+y) down. A sample lies at the centre of its cell.
+/// A smooth height field over the picture: heights z in the device frame, over a picture whose
+/// centre is the device's origin: columns from left (−x) to right, rows from the top (+y) down. A
+/// sample lies at the centre of its cell.
 ///
 /// The surface is the uniform cubic B-spline with the samples as its coefficients (C. de Boor, A
 /// Practical Guide to Splines). Its height, slope and curvature are continuous. It does not pass
@@ -61,7 +60,7 @@ class HeightField {
 
   /// A picture of the relief for the eye: the brightness of each cell, rows from the top, as on
   /// maps with hill shading. The light comes from the upper left, 45° above the picture: 128 is
-  /// level, 255 faces the light, and 0 is turned away from it by a right angle.
+  /// level, 255 faces the light, and 0 is turned away by a right angle.
   std::string shading() const;
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The surface point (proxy) that follows a grip in contact.
 #pragma once
 
 #include <algorithm>

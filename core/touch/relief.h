@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Builds a relief from a picture or a depth image.
 #pragma once
 
 #include <cstdint>

@@ -20,7 +20,7 @@ constexpr size_t kMaxPoints = 16;
 /// buzz.
 constexpr double kSharpness = 0.2;
 
-/// Rounded, so that files are short and 0.02 is not 0.020000000000000001.
+/// Rounds, so that files are short and 0.02 is not 0.020000000000000001.
 double rounded(double value) {
   return std::round(value * 1000) / 1000;
 }
@@ -52,7 +52,7 @@ Json event(double time_s, double duration_s) {
               {{"ParameterID", "HapticSharpness"}, {"ParameterValue", kSharpness}}}}}}};
 }
 
-/// Writes curves of some points each; the last point of one is the first of the next.
+/// Writes curves of some points each; the last point of a curve is the first of the next.
 class AhapCurveWriter {
  public:
   AhapCurveWriter(const WriteText& write, bool is_first) : write_(write), is_first_(is_first) {}

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMiddle = 50;
 constexpr const char *kNotesKey = "gst-spidar", *kChannelKey = "channel", *kGainKey = "gain";
 
-/// A member, or null.
+/// Returns a member, or null.
 const ReadJson* member(const ReadJson& object, const char* name) {
   const auto found = object.is_object() ? object.find(name) : object.end();
   return object.is_object() && found != object.end() ? &*found : nullptr;
@@ -36,8 +36,8 @@ double number(const ReadJson& object, const char* name, double least, double mos
   return value;
 }
 
-/// The part of the full scale that a script uses, negative for one that is inverted. What is not
-/// said stays as in `scale`.
+/// The fraction of the full scale that a script uses, negative for an inverted script. Without an
+/// entry, the result is `scale`.
 double read_scale(const ReadJson& script, const std::string& where, double scale) {
   constexpr double kPercent = 100;
   if (const ReadJson* const inverted = member(script, "inverted")) {
@@ -61,7 +61,7 @@ std::vector<ScriptAxis::Point> read_points(const ReadJson& actions, const std::s
   }
   const auto is_before = [](const auto& a, const auto& b) { return a.at_ms < b.at_ms; };
   std::stable_sort(points.begin(), points.end(), is_before);
-  // Of several at one time, the last: the first one of those that come from behind.
+  // The last of several positions at one time counts: the first in reverse order.
   const auto is_same = [](const auto& a, const auto& b) { return a.at_ms == b.at_ms; };
   points.erase(points.begin(), std::unique(points.rbegin(), points.rend(), is_same).base());
   return points;
@@ -72,7 +72,7 @@ double usual_gain(size_t channel) {
                                       : kTrackTorqueScale_Nm / kScriptTorque_Nm;
 }
 
-/// An axis of the same channel is replaced: of several, players take the last.
+/// Replaces an axis of the same channel: players use the last of several.
 void put(ScriptAxis axis, Funscript& script) {
   const auto same = std::find_if(script.axes.begin(), script.axes.end(),
                                  [&](const auto& other) { return other.channel == axis.channel; });
@@ -97,7 +97,7 @@ void read_axis(const ReadJson& from, const std::string& name, const std::string&
       script);
 }
 
-/// Version 1.1.
+/// Reads the axes of version 1.1.
 void read_axes(const ReadJson& axes, double scale, Funscript& script) {
   if (!axes.is_array()) throw TrackFileError("axes is no list");
   for (size_t i = 0; i < axes.size(); ++i) {
@@ -108,7 +108,7 @@ void read_axes(const ReadJson& axes, double scale, Funscript& script) {
   }
 }
 
-/// Version 2.0.
+/// Reads the channels of version 2.0.
 void read_channels(const ReadJson& channels, double scale, Funscript& script) {
   if (!channels.is_object()) throw TrackFileError("channels is no object");
   for (const auto& [name, channel] : channels.items()) {
@@ -116,7 +116,7 @@ void read_channels(const ReadJson& channels, double scale, Funscript& script) {
   }
 }
 
-/// What write_funscript() notes, if it is there.
+/// Reads the notes of write_funscript(), if there are any.
 void read_notes(const ReadJson& root, ScriptAxis& axis) {
   const ReadJson* const notes = member(root, kNotesKey);
   if (!notes) return;

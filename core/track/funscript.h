@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Funscripts: the positions of devices over time, of one axis or several.
 #pragma once
 
 #include <cstddef>
@@ -15,45 +14,45 @@
 
 namespace spidar {
 
-/// Usual tolerance, as large as the rounding error of a position: half a step of 2 %.
+/// The usual tolerance, as large as the rounding error of a position: half a step of 2 %.
 constexpr double kFunscriptTolerance = 0.01;
 
 /// Writes one channel: −1, 0 and 1 become the positions 0, 50 and 100, whole numbers. Players join
-/// positions by straight lines, and move at the speed that the lines ask for. The lines differ from
-/// the curve by at most `tolerance`, a fraction of the full scale, and the rounding of a position,
-/// 0.01. Amplitudes beyond the full scale are clipped, and NaN becomes 0. The script notes its
-/// channel and the `gain` by which its samples have been multiplied.
+/// positions by straight lines, and move at the speed of the lines. The lines differ from the curve
+/// by at most `tolerance`, a fraction of the full scale, and the rounding of a position, 0.01.
+/// Amplitudes beyond the full scale are clipped, and NaN becomes 0. The script notes its channel
+/// and the `gain` by which its samples have been multiplied.
 void write_funscript(const SampleSource& samples, size_t channel, const WriteText& write,
                      double tolerance = kFunscriptTolerance, double gain = 1);
 
-/// The latest time of a position that is read: 12 h.
+/// The latest accepted time of a position: 12 h.
 constexpr int64_t kLatestPosition_ms = int64_t{12} * 3600 * 1000;
 
-/// Force and torque that the positions 0 and 100 stand for in scripts from elsewhere: the usual
-/// max-force and max-torque.
+/// The force and torque of the positions 0 and 100 in scripts from elsewhere: the usual max-force
+/// and max-torque.
 constexpr double kScriptForce_N = 3, kScriptTorque_Nm = 0.1;
 
-/// One axis of a script, and what it is felt as.
+/// One axis of a funscript: the positions of a device over time, and how they are felt.
 struct ScriptAxis {
   struct Point {
     int64_t at_ms;
-    double fraction;  ///< of what the positions 0 and 100 stand for
+    double fraction;  ///< of the range between the positions 0 and 100
   };
 
   std::string name;           ///< in the script: "R1", "roll"; empty: the axis of its own actions
   size_t channel = 0;         ///< of a track
-  double gain = 1;            ///< by which the samples of the track were multiplied
-  bool is_noted = false;      ///< channel and gain are those of write_funscript()
+  double gain = 1;            ///< of the samples, when the script was written
+  bool is_noted = false;      ///< whether channel and gain are those of write_funscript()
   std::vector<Point> points;  ///< in order of time; empty: the axis is at rest
 
-  /// A sample of the track, along straight lines; at rest before the first position and after the
-  /// last one.
+  /// A sample of the track, along straight lines; zero before the first position and after the last
+  /// one.
   float at(int64_t time_ms) const;
 };
 
-/// The channel of an axis such as "roll" or "R1", in small or capital letters, as players of
-/// several axes name them: L0 stroke up, L1 surge forwards, L2 sway sideways, R0 twist about the
-/// vertical, R1 roll about forwards, R2 pitch about sideways. Nothing for other names.
+/// The channel of an axis such as "roll" or "R1", ignoring case, as players of several axes name
+/// them: L0 stroke up, L1 surge forwards, L2 sway sideways, R0 twist about the vertical, R1 roll
+/// about forwards, R2 pitch about sideways. Nothing for other names.
 ///
 /// Source: the README and default settings of MultiFunPlayer; OFS-NG calls its files
 /// film.R1.funscript (issue 2 of ofs69/ofs-ng).
@@ -70,10 +69,10 @@ struct Funscript {
 /// Reads a script. `channel` is that of its own actions, unless the script notes another one. Also
 /// reads the axes of versions 1.1 ("axes": [{"id":"R1","actions":…}]) and 2.0
 /// ("channels":{"roll":{"actions":…}}). Positions are sorted, and of two at one time the later one
-/// counts, as in players. "range" is the percentage of the full scale that is used: launchcontrol,
-/// the player that the format comes from, scales the positions by it, and its usual limits put them
-/// about the middle. As there, a range of 0 or none at all stands for 100. Throws TrackFileError:
-/// not JSON, no actions (but they may be empty), or a number out of its range.
+/// counts, as in players. "range" is the used percentage of the full scale: launchcontrol, the
+/// player from which the format comes, scales the positions by it, and its usual limits put them
+/// about the middle. As there, a range of 0 or none at all means 100. Throws TrackFileError for a
+/// text that is not JSON, missing actions (they may be empty), and a number out of its range.
 Funscript parse_funscript(const std::string& text, size_t channel);
 
 }  // namespace spidar

@@ -20,7 +20,7 @@ constexpr std::array<const char*, kTrackChannels> kChannelNames = {
     "Torque about x: 1 is 1 N m",
     "Torque about y: 1 is 1 N m",
     "Torque about z: 1 is 1 N m"};
-/// Largest timescale of the format's main profile, ticks a second.
+/// The largest timescale of the format's main profile, ticks a second.
 constexpr int64_t kMaxTicks_Hz = 48000;
 /// The highest frequency that the haptic loop can render.
 constexpr int kUpperLimit_Hz = kTrackRate_Hz / 2;
@@ -39,12 +39,12 @@ void write_keyframe(const WriteText& write, size_t index, double value) {
   std::string text = index == 0 ? R"({"relative_position":)" : R"(,{"relative_position":)";
   text.append(NumberText(index));
   text += R"(,"amplitude_modulation":)";
-  text.append(NumberText(value + 0.0));  // of −0 and 0 only the second
+  text.append(NumberText(value + 0.0));  // the sum turns −0 into 0
   write(text + '}');
 }
 
-/// The keyframes of a curve, except that the Synthesizer of MPEG's reference software makes silence
-/// of a curve with two of them.
+/// Writes the keyframes of a curve. A curve needs more than two, because the Synthesizer of MPEG's
+/// reference software makes silence of two.
 class HjifCurveWriter {
  public:
   explicit HjifCurveWriter(const WriteText& write) : write_(write) {}
@@ -124,7 +124,7 @@ std::string text_of(const ReadJson& object, const char* name, const std::string&
   return value.get<std::string>();
 }
 
-/// A finite number of at most ±`most`.
+/// Reads a finite number of at most ±`most`.
 double number(const ReadJson& object, const char* name, const std::string& where, double most) {
   const ReadJson& value = member(object, name, where);
   if (!value.is_number()) fail(where + "." + name, "is not a number");
@@ -137,7 +137,7 @@ double number(const ReadJson& object, const char* name, const std::string& where
   return result;
 }
 
-/// A time in ticks, from 0 to 2^31 − 1 as in the format.
+/// Reads a time in ticks, from 0 to 2^31 − 1 as in the format.
 int64_t ticks(const ReadJson& object, const char* name, const std::string& where) {
   const double value = number(object, name, where, INT32_MAX);
   if (value < 0 || value != std::floor(value)) fail(where + "." + name, "is not a number of ticks");
@@ -184,7 +184,7 @@ class Curves {
   size_t index_before(int64_t tick) const {
     return static_cast<size_t>(tick * kTrackRate_Hz / ticks_Hz_);
   }
-  /// The sample at a keyframe.
+  /// Sets the sample at a keyframe.
   void put(const Keyframe& keyframe, size_t channel, double gain) {
     const size_t i = index_before(keyframe.tick);
     if (static_cast<int64_t>(i) * ticks_Hz_ == keyframe.tick * kTrackRate_Hz) {
@@ -266,7 +266,8 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
   const ReadJson root = parse_json(text, why);
   if (root.is_discarded()) throw TrackFileError(why);
   Curves curves(timescale_of(root), most_samples);
-  const std::string whole = "the file";  // named: GCC 14 takes a result for a part of a temporary
+  // A variable, because GCC 14 takes a result for a part of a temporary.
+  const std::string whole = "the file";
   const ReadJson& perceptions = array(root, "perceptions", whole);
   bool is_read = false;
   std::vector<std::string> unread;

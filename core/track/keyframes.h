@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Approximates a curve by few of its points.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +11,10 @@
 
 namespace spidar {
 
-/// Chooses values of a curve, including the first and the last one, so that straight lines between
-/// them pass all others within a tolerance. Each line is as long as possible: the slopes that pass
-/// all values so far form a cone, and the last value inside the cone ends the line. Keeps only the
-/// values behind that one.
+/// Approximates a curve by few of its points: chooses values, including the first and the last one,
+/// so that straight lines between them pass all others within a tolerance. Each line is as long as
+/// possible: the slopes that pass all values so far form a cone, and the last value inside the cone
+/// ends the line. Keeps only the values behind that one.
 class KeyframeChooser {
  public:
   KeyframeChooser(double tolerance, std::function<void(size_t index, double value)> take)
@@ -30,7 +29,6 @@ class KeyframeChooser {
     extend_line();
   }
 
-  /// There are no more values.
   void finish() {
     while (count_ > 0 && end_ != begin_) {
       end_line();
@@ -47,10 +45,10 @@ class KeyframeChooser {
     highest_ = std::numeric_limits<double>::infinity();
   }
 
-  /// The line ends at its last value inside the cone, and the next one begins there.
+  /// Ends the line at its last value inside the cone, where the next line begins.
   void end_line() { begin(end_, end_value_); }
 
-  /// Looks at the values that have not been seen since the line began.
+  /// Examines the values that have been added since the line began.
   void extend_line() {
     while (seen_ - end_ < behind_.size()) {
       const double value = behind_[seen_ - end_];
@@ -72,8 +70,7 @@ class KeyframeChooser {
   const double tolerance_;
   const std::function<void(size_t index, double value)> take_;
   size_t count_ = 0;
-  // Indices on the line: of its first value, its last one so far, and the last one that was looked
-  // at.
+  // Indices on the line: of its first value, its last one so far, and the last examined one.
   size_t begin_ = 0, end_ = 0, seen_ = 0;
   double begin_value_ = 0, end_value_ = 0;
   double lowest_ = 0, highest_ = 0;  ///< slopes

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The format of a haptic track: the wanted wrench as six channels of samples, like sound.
 #pragma once
 
 #include <array>
@@ -11,17 +10,17 @@
 
 namespace spidar {
 
-/// Sample rate of the tracks that this project writes: one sample a millisecond, as in the haptic
-/// loop.
+/// The sample rate of the tracks that this project writes: one sample a millisecond, as in the
+/// haptic loop.
 constexpr int kTrackRate_Hz = 1000;
 constexpr int64_t kTrackPeriod_ns = 1'000'000'000 / kTrackRate_Hz;
 /// Channels of a track: fx fy fz tx ty tz, in the device frame D.
 constexpr size_t kTrackChannels = 6;
-/// Full scale: what a sample of 1.0 stands for. Only integer encodings clip larger values.
+/// The full scale, a sample of 1.0. Only integer encodings clip larger values.
 constexpr double kTrackForceScale_N = 10;
 constexpr double kTrackTorqueScale_Nm = 1;
 
-/// All channels at one time, as fractions of the full scale.
+/// All channels of the wanted wrench at one time, as fractions of the full scale.
 using TrackSample = std::array<float, kTrackChannels>;
 
 inline TrackSample to_track_sample(const Wrench& wrench) noexcept {

@@ -17,7 +17,7 @@ int64_t longest_step_ns(int64_t period_ns) {
 
 bool TrackReader::read(const TrackBlock& block, int64_t time_ns) noexcept {
   for (; read_ < block.count && block.time_ns(read_) <= time_ns; ++read_) {
-    // A late sample counts only if it is newer than the one that was rendered last.
+    // A late sample counts only if it is newer than the last rendered one.
     if (block.time_ns(read_) <= last_ns_) continue;
     last_ = block.samples[read_];
     last_ns_ = block.time_ns(read_);

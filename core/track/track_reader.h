@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads samples of a track: at any time between them, and of fewer than there are.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +19,7 @@ class TrackThinner {
     *this = {};
     group_ = static_cast<size_t>((rate_Hz + kTrackRate_Hz - 1) / kTrackRate_Hz);
   }
-  /// The next sample does not continue the previous ones.
+  /// Tells that the next sample does not continue the previous ones.
   void reset() noexcept { filled_ = 0; }
 
   size_t group() const noexcept { return group_; }
@@ -42,7 +41,7 @@ class TrackThinner {
  private:
   size_t group_ = 1;
   size_t filled_ = 0;
-  std::array<double, kTrackChannels> sum_{};  ///< of floats, so that it is finite if they are
+  std::array<double, kTrackChannels> sum_{};  ///< finite if the floats are finite
 };
 
 /// Goes through blocks in the order of their times and interpolates linearly between samples; never
@@ -56,12 +55,11 @@ class TrackReader {
   /// is zero 45 ms after the last sample of a track of 1 kHz.
   static constexpr int64_t kHold_ns = 5'000'000;
 
-  /// Reads the samples of `block` that are due. Returns true when the block has been read
-  /// completely.
+  /// Reads the due samples of `block`. Returns true when the block has been read completely.
   bool read(const TrackBlock& block, int64_t time_ns) noexcept;
 
-  /// The wrench between the last sample that was read and the next one, which is in `next`: the
-  /// block that read() has not finished, or null when there is none.
+  /// The wrench between the last read sample and the next one, which is in `next`: the block that
+  /// read() has not finished, or null when there is none.
   TimelineResult at(int64_t time_ns, const TrackBlock* next) const noexcept;
 
   void clear() noexcept { *this = {}; }
@@ -69,8 +67,8 @@ class TrackReader {
  private:
   TrackSample last_{};
   int64_t last_ns_ = INT64_MIN;  ///< nothing was read yet
-  int64_t period_ns_ = 0;        ///< of the block to which that belongs
-  size_t read_ = 0;              ///< number of samples of the oldest block that were read
+  int64_t period_ns_ = 0;        ///< of the block of that sample
+  size_t read_ = 0;              ///< the number of read samples of the oldest block
 };
 
 }  // namespace spidar

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Samples the wrenches of frames as a track.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@ namespace spidar {
 
 /// Samples the curve that the haptic loop renders between frames (WrenchTimeline), every
 /// millisecond of the frames' own time scale. Where no frame follows, the loop leaves a ramp to the
-/// safety chain; here the ramp is part of the samples, so that a track does not step to rest.
+/// safety chain; here the ramp is part of the samples, so that a track does not step to zero.
 class TrackSampler {
  public:
   /// The first sample is the first whole millisecond at or after `from_ns` >= 0. Forgets all
@@ -34,16 +33,15 @@ class TrackSampler {
     return true;
   }
 
-  /// Until this time, future frames do not change the curve, unless they are further than
+  /// The time until which future frames do not change the curve, unless they are further than
   /// `look_ahead_ns` from the last added one: the time of the motion of the last but one frame that
   /// does not repeat a picture.
   int64_t settled_ns(int64_t look_ahead_ns) const noexcept {
     return std::max(before_newest_ns_, latest_ns_ - look_ahead_ns);
   }
 
-  /// Time of the next sample.
   int64_t next_ns() const noexcept { return next_ns_; }
-  /// The next sample; the one after it is a millisecond later.
+  /// Returns the next sample; the following one is a millisecond later.
   Wrench next() noexcept {
     const TimelineResult result = timeline_.at(next_ns_);
     next_ns_ += kTrackPeriod_ns;
@@ -59,10 +57,10 @@ class TrackSampler {
  private:
   WrenchTimeline timeline_;
   int64_t next_ns_ = 0;
-  int64_t latest_ns_ = INT64_MIN / 2;  ///< of all frames added
-  int64_t newest_ns_ = INT64_MIN / 2;  ///< motion of those that show a picture of their own
+  int64_t latest_ns_ = INT64_MIN / 2;  ///< of all frames
+  int64_t newest_ns_ = INT64_MIN / 2;  ///< motion of the frames with a picture of their own
   int64_t before_newest_ns_ = INT64_MIN / 2;
-  int64_t expired_ns_ = 0;  ///< for how long the wrench has been going to rest
+  int64_t expired_ns_ = 0;  ///< how long the wrench has been ramping to zero
 };
 
 }  // namespace spidar
