@@ -27,15 +27,13 @@ from gi.repository import GObject, Gst  # noqa: E402
 ELEMENTS = ("spidarmotion", "spidarextract", "spidarsink")
 DOCS = Path(__file__).resolve().parent
 WRITTEN = "Written by `docs/elements.py` from the plugin; a test compares the two.\n"
-ASKED = ("`gst-inspect-1.0 --exists` asks for version 1.0, and the plugin has the version of the project: ask with "
-         "`--atleast-version=0.1`.\n")
-PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, "
-           "`gst_preset_load_preset()`), which set motion, controller, filter and gains. GStreamer finds "
-           "them where its own data are, and in `GST_PRESET_PATH`. A preset replaces what the launch line sets, wherever it "
-           "stands, but `max-force`. `spidar-feel`, `spidartrack` and `examples/play.sh` take `preset=film`.\n")
+ASKED = "Add `--atleast-version=0.1` to `gst-inspect-1.0 --exists`, which otherwise asks for version 1.0.\n"
+PRESETS = ("`spidarmotion` has the presets `paper`, `film` and `gentle` (`@preset=film` in a launch line, `preset=film` for "
+           "`spidar-feel`, `spidartrack` and `examples/play.sh`), which set motion, controller, filter and gains. GStreamer "
+           "finds them where its own data are, and in `GST_PRESET_PATH`. A preset replaces what the launch line sets, except "
+           "`max-force`.\n")
 CHANGES = ("In brackets: default and range. A property can be changed while playing, unless it says *in READY* (only in the states "
-           "NULL and READY) or *in NULL*: then a later change is refused with a warning. *Controllable*: a `GstControlSource` can "
-           "drive it.\n")
+           "NULL and READY) or *in NULL*. *Controllable*: a `GstControlSource` can drive it.\n")
 TYPES = {"gchararray": "string", "gdouble": "double", "gboolean": "boolean", "guint64": "uint64", "guint": "uint",
          "gint": "int", "gint64": "int64", "GstValueArray": "array"}
 
@@ -116,6 +114,7 @@ class Fields:
                 continue
             is_told = name != "message" and (key, meaning) in self.seen
             self.seen.add((key, meaning))
+            facts = facts.removeprefix("uint64").removeprefix(", ")
             rows.append((f"`{label}`", f"{facts and f' ({facts})'}: {'as in the message' if is_told else meaning}"))
         return [f"- {', '.join(label for label, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
 
@@ -126,13 +125,13 @@ def table(columns, rows):
 
 def field_sections(fields):
     """The sections that GObject does not know, by element."""
-    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame, when it is analysed: "
-              "before a queue up to a second before it is shown. Use it at its `running-time`, as "
-              "[motion_messages.py](../../examples/motion_messages.py) and [gtk_arrow.py](../../examples/gtk_arrow.py) do. "
-              "A star stands for x, y and z:", "",
+    motion = ["", "## Messages", "", "With `post-messages`, an element message `spidar-motion` for each frame, when it is analysed: up "
+              "to a second before a queue shows it. Use it at its `running-time`, as "
+              "[motion_messages.py](../../examples/motion_messages.py) does. A star stands for x, y and z, and a field without "
+              "a type is a uint64:", "",
               *fields.items("message"), "",
-              "When the device is opened, cannot be opened, is lost or comes back, an element message `spidar-device`. The codes "
-              "of the warning or error that goes with it are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
+              "When the device is opened, refused, lost or back, an element message `spidar-device`. The codes of "
+              "the warning or error that goes with it are `NOT_FOUND`, `BUSY`, `NOT_AUTHORIZED`, `SETTINGS` (its name, "
               "its profile, its firmware) or `OPEN_READ_WRITE` of `GST_RESOURCE_ERROR`, and `WRITE` when it is lost:", "",
               *fields.items("device-message"), "", "## Fields of `stats`",
               "", "Of the video:", "", *fields.items("stats", without=fields.lists["stats.device"]),
