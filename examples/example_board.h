@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A whole device with strings, the example of docs/extend.md: its board, what is emulated of it,
-/// and its kind. It does not exist: it takes a packet of eight 16-bit digits and answers with eight
+/// A whole device with strings, the example of docs/extend.md: its board, its emulation, and its
+/// kind. The device does not exist: it takes a packet of eight 16-bit digits and answers with eight
 /// 16-bit counters.
 #pragma once
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // From pictures to a wrench: a textured square moves to the right over a textured background, 4 px
-// in each of 25 pictures a second; prints the wrench that would be felt.
-// Needs nothing but libgst-spidar: g++ -std=c++17 picture.cpp $(pkg-config --cflags --libs
-// gst-spidar)
+// in each of 25 pictures a second; prints the wanted wrench. Needs only libgst-spidar: g++
+// -std=c++17 picture.cpp $(pkg-config --cflags --libs gst-spidar)
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -15,7 +14,7 @@ namespace {
 
 constexpr int kWidth = 320, kHeight = 240, kSide = 96;
 
-/// A random grey that is the same for the same place, in spots of 3 × 3 pixels.
+/// A random grey that depends only on the position, in spots of 3 × 3 pixels.
 std::uint8_t texture(int x, int y, unsigned seed) {
   const unsigned spot = static_cast<unsigned>(x / 3 * 73 + y / 3 * 151) + seed;
   return static_cast<std::uint8_t>((spot * 2654435761u) >> 24);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Prints where the grip of a device is, ten times in a second, in millimetres from the centre:
-//   pose [DEVICE [PROFILE]]     sim, the simulated SPIDAR, when none is named
-// Needs nothing but libgst-spidar: g++ -std=c++17 pose.cpp $(pkg-config --cflags --libs gst-spidar)
+//   pose [DEVICE [PROFILE]]     default: sim, the simulated SPIDAR
+// Needs only libgst-spidar: g++ -std=c++17 pose.cpp $(pkg-config --cflags --libs gst-spidar)
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
   using namespace std::chrono_literals;
   try {
     const gst_spidar::Device device(argc > 1 ? argv[1] : "sim", argc > 2 ? argv[2] : "");
-    // The pose is known after several readings that agree.
+    // The pose is known after several consistent readings.
     for (int i = 0; i < 500 && !device.pose(); ++i) std::this_thread::sleep_for(10ms);
     for (int i = 0; i < 10; ++i) {
       if (const std::optional<gst_spidar::Pose> pose = device.pose()) {

@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // Opens a device and pushes its grip in a circle for a second:
 //   push [DEVICE]     default: sim, the simulated SPIDAR
-// Needs nothing but libgst-spidar: g++ -std=c++17 push.cpp $(pkg-config --cflags --libs gst-spidar)
+// Needs only libgst-spidar: g++ -std=c++17 push.cpp $(pkg-config --cflags --libs gst-spidar)
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A stiff wall to the left of the centre, for two seconds; prints how deep the grip was in it:
-//   wall [DEVICE]     sim, the simulated SPIDAR, whose hand is pushed into the wall
+//   wall [DEVICE]     default: sim, the simulated SPIDAR, whose hand is pushed into the wall
 // The library keeps the wall passive: a hand gets no more energy from it than it has put in.
-// Needs nothing but libgst-spidar: g++ -std=c++17 wall.cpp $(pkg-config --cflags --libs gst-spidar)
+// Needs only libgst-spidar: g++ -std=c++17 wall.cpp $(pkg-config --cflags --libs gst-spidar)
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   using namespace std::chrono_literals;
   try {
     const std::string name = argc > 1 ? argv[1] : "sim";
-    std::atomic<double> deepest_m{0};  // must outlive the device, which calls what uses it
+    std::atomic<double> deepest_m{0};  // must outlive the device, whose callback uses it
     gst_spidar::Device device(name);
     if (!device.wait_until_running(30s))
       throw std::runtime_error("no pose: " + device.last_fault());

@@ -32,13 +32,13 @@ set rmargin at screen 0.84
 constexpr const char* kStringColours[] = {"#e69f00", "#56b4e9", "#009e73", "#999933",
                                           "#0072b2", "#d55e00", "#cc79a7", "#000000"};
 
-/// A force or a torque: its columns and how it is shown.
+/// The columns of a force or a torque, and how they are shown.
 struct Force {
   const char* label;
   int line;
   int frame_column, device_column;
   double unit;   ///< of the axis, per unit of the columns
-  double per_N;  ///< in the unit of the columns, what has the size of 1 N
+  double per_N;  ///< in the unit of the columns, what corresponds to 1 N
 };
 
 constexpr Force kForces[] = {
@@ -48,8 +48,8 @@ constexpr Force kForces[] = {
     {"torque, mN m\\n(about z)", 4, 9, 5, 1e3, spidar::kTorqueArm_m},
 };
 
-/// Lines cannot go on through the blank lines that are written where a scene begins. There the
-/// position, which is the sum of what was moved in the scene, begins again at zero.
+/// Lines are interrupted by the blank lines at the beginning of a scene. There the position, which
+/// is the sum of the motion in the scene, begins again at zero.
 void write_frames(std::ostream& script, const Record& record) {
   script << "$frames << END\n";
   double x_px = 0, y_px = 0, last_s = 0;
@@ -64,7 +64,7 @@ void write_frames(std::ostream& script, const Record& record) {
     last_s = frame.time_s;
     script << frame.time_s << ' ' << x_px << ' ' << y_px;
     for (const double speed_px_s : frame.velocity_px_s) {
-      script << ' ' << (frame.begins_scene ? NAN : speed_px_s);  // nothing was compared
+      script << ' ' << (frame.begins_scene ? NAN : speed_px_s);  // there was no comparison
     }
     for (const double force_N : frame.force_N) script << ' ' << force_N;
     script << ' ' << frame.torque_Nm << '\n';
@@ -84,7 +84,7 @@ void write_devices(std::ostream& script, const Record& record) {
   script << "END\n";
 }
 
-/// The words of the reasons in the order in which they come first.
+/// The words of the reasons in the order in which they first occur.
 std::vector<std::string> reasons_of(const Record& record) {
   std::vector<std::string> words;
   for (const auto& [time_s, word] : record.reasons()) {
@@ -119,7 +119,8 @@ void draw_position(std::ostream& script) {
             "plot $frames using 1:2 title 'x, right', $frames using 1:3 title 'y, up'\n";
 }
 
-/// With a line at zero: gnuplot draws no picture without a point, of a single frame for example.
+/// A line at zero is necessary because gnuplot draws no picture without a point, for example of a
+/// single frame.
 void draw_velocity(std::ostream& script) {
   script << "set ylabel 'velocity, px/s'\n"
             "plot 0 linecolor rgb '#d8d8d8' linewidth 0.5 notitle, $frames using 1:4 linetype 1 "
@@ -136,7 +137,7 @@ void draw_reasons(std::ostream& script, const std::vector<std::string>& words) {
             "rgb '#808080' notitle\nset ytics auto font ',12'\nunset label 1\n";
 }
 
-/// Whether a hand could feel it anywhere: the value in a row, wanted or delivered.
+/// Whether a hand could feel the wanted or delivered value in any row.
 template <typename Value>
 bool is_felt(const Record& record, double least, const Value& value) {
   const auto reaches = [&](const auto& row) { return std::abs(value(row)) >= least; };
@@ -144,7 +145,7 @@ bool is_felt(const Record& record, double least, const Value& value) {
          std::any_of(record.devices().begin(), record.devices().end(), reaches);
 }
 
-/// How many strings pull.
+/// The number of strings that pull.
 size_t strings_of(const Record& record) {
   size_t strings = 0;
   for (const DeviceRow& row : record.devices()) {
@@ -184,7 +185,6 @@ void draw_force(std::ostream& script, const Force& force, double limit_N, bool h
             "unset object 1\n";
 }
 
-/// Sizes in pixels.
 constexpr int kWidth_px = 1400, kAbove_px = 70, kBelow_px = 70, kGap_px = 42, kCurve_px = 220,
               kReason_px = 24;
 
@@ -205,14 +205,14 @@ std::string picture_script(const Record& record, double max_force_N, const std::
   const bool has_device = !record.devices().empty();
   const size_t strings = strings_of(record);
   const std::vector<std::string> reasons = reasons_of(record);
-  // A haptic track says nothing of positions and speeds, and at rest there are none.
+  // A haptic track contains no positions and speeds, and at rest there are none.
   const bool has_motion =
       std::any_of(record.frames().begin(), record.frames().end(), [](const FrameRow& frame) {
         return std::hypot(frame.velocity_px_s[0], frame.velocity_px_s[1]) > 0;
       });
   std::vector<Force> forces;
   const auto in_plane = [](const auto& row) { return std::hypot(row.force_N[0], row.force_N[1]); };
-  // Where nothing is felt, there are only the reasons to show.
+  // When nothing is felt, only the reasons are shown.
   if (reasons.empty() || is_felt(record, spidar::kFeltForce_N, in_plane)) {
     forces = {kForces[0], kForces[1]};
   }
@@ -259,7 +259,7 @@ std::string picture_script(const Record& record, double max_force_N, const std::
     script << "set tmargin at screen " << at_screen(top_px) << "\nset bmargin at screen "
            << at_screen(top_px + panels[i].height_px) << '\n';
     top_px += panels[i].height_px + kGap_px;
-    // Every panel but the last is without times at its axis.
+    // Only the last panel has times at its axis.
     if (i + 1 == panels.size()) script << "set format x '%g'\nset xlabel 'running time, s'\n";
     panels[i].draw(script);
   }

@@ -32,7 +32,8 @@ GstElement* sink_in(GstElement* bin) {
   return sink;
 }
 
-/// The sink that autovideosink has chosen, or null. It uses a fakesink when nothing else works.
+/// The sink that autovideosink has chosen, or null. autovideosink uses a fakesink when nothing else
+/// works.
 GstElement* chosen_sink(GstElement* autovideosink) {
   GstElement* sink = sink_in(autovideosink);
   if (sink == nullptr) return nullptr;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Plays a video whose motion is felt, then prints a report. examples/play.sh builds it and finds a
-/// video.
+/// Plays a video whose motion is felt, then prints a report. examples/play.sh builds this program
+/// and finds a video.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -57,7 +57,8 @@ void expect_no_property(const std::string& word) {
       word + ": there is no such video; properties follow --: play VIDEO -- " + word);
 }
 
-/// What follows "--" are properties, not options. Throws CLI::ParseError and std::invalid_argument.
+/// The arguments after "--" are properties, not options. Throws CLI::ParseError and
+/// std::invalid_argument.
 Options parse(CLI::App& app, int argc, char** argv) {
   Options options;
   app.name("play");
@@ -100,7 +101,7 @@ class WindowPicture {
     if (time_s >= kDue_s) take();
   }
 
-  /// At the end of a shorter video, too.
+  /// Also called at the end of a shorter video.
   void take() {
     if (path_.empty()) return;
     gboolean saved = FALSE;
@@ -115,11 +116,11 @@ class WindowPicture {
 };
 
 constexpr const char* kPicture = "spidar-play.png";
-/// Of what this program wrote, nothing else is replaced.
+/// Only files of this program are replaced.
 const spidar::PartFile::Replaces kOwn{true, "play.sh", false};
 
-/// Makes the folder, if necessary, before a film is played for it. Throws std::invalid_argument
-/// when it cannot be written to, and std::runtime_error when it has another picture.
+/// Makes the folder, if necessary, before a film is played. Throws std::invalid_argument when the
+/// folder cannot be written to, and std::runtime_error when it has another picture.
 void prepare_output(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -148,7 +149,7 @@ void draw(const Record& record, const Options& options, const std::string& title
   std::printf("picture: %s\n", png.c_str());
 }
 
-/// Stops a pipeline, and lets go of it and its filter.
+/// Stops a pipeline, and releases it and its filter.
 struct Playing {
   GstElement* const pipeline;
   GstElement* const filter;
@@ -163,8 +164,8 @@ struct Playing {
   Playing& operator=(const Playing&) = delete;
 };
 
-/// Until the debug window, which still shows the end of the film, is closed, or Ctrl-C is pressed.
-/// The window may seek back into the film, and pause it there.
+/// Waits until the user closes the debug window, which still shows the end of the film, or presses
+/// Ctrl-C. The window may seek back into the film, and pause it there.
 void wait_for_window(const Playing& playing) {
   constexpr gulong kStep_us = 50'000;
   static volatile std::sig_atomic_t is_interrupted = 0;
@@ -185,7 +186,7 @@ void wait_for_window(const Playing& playing) {
   gst_object_unref(bus);
 }
 
-/// Returns whether one of the properties says what is drawn into the video.
+/// Returns whether one of the properties determines what is drawn into the video.
 bool set_properties(GstElement* filter, const Options& options) {
   bool has_overlay = false;
   g_object_set(filter, "device", "auto", nullptr);
@@ -201,7 +202,7 @@ bool set_properties(GstElement* filter, const Options& options) {
   return has_overlay;
 }
 
-/// `changed` is said where the video has a window.
+/// `changed` is printed where the video has a window.
 int play(const Options& options, const std::string& changed) {
   if (!options.ball) spidar::note_read(options.video);
   prepare_output(options.output);
@@ -246,7 +247,7 @@ int play(const Options& options, const std::string& changed) {
   watch.on_device = [&](const GstStructure* message) {
     gboolean simulated = FALSE;
     gst_structure_get_boolean(message, "simulated", &simulated);
-    // What would be felt is to be seen. The debug window draws it itself.
+    // Without a device, the overlay must show the force. The debug window draws it itself.
     if (simulated && !has_overlay && !options.window) {
       gst_util_set_object_arg(G_OBJECT(filter), "overlay", "curve");
     }
@@ -285,7 +286,7 @@ int play(const Options& options, const std::string& changed) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with errors, also when written to a file
+  std::setvbuf(stdout, nullptr, _IOLBF, 0);  // in step with errors, also in a file
   constexpr int kMistake = 2;                // in the command line
   spidar::tools::mark_files(argc, argv);
   CLI::App app("Plays a video whose motion is felt, and ends with a report and a picture of it.");

@@ -15,20 +15,20 @@
 namespace {
 
 constexpr guint kMoment_ms = 20;
-/// Between two lines of progress: on a terminal, and into a file.
+/// The interval between two lines of progress: on a terminal, and in a file.
 constexpr guint kProgress_ms = 100, kLoggedProgress_ms = 2000;
 
 struct Playback {
   GstElement* pipeline;
   const std::string film;
-  const int seconds;  ///< of the film, that are played; 0: all
+  const int seconds;  ///< of the film to play; 0: all
   const PlaybackWatch& watch;
   bool on_terminal;
   GMainLoop* main_loop;
   Ending ending = Ending::kFailed;
   bool buffering = false;
   int unwanted = 0;                          ///< moments since the window was closed
-  std::map<std::string, int> warnings = {};  ///< number of times, by text
+  std::map<std::string, int> warnings = {};  ///< counts by text
 
   void stop(Ending why) {
     ending = why;
@@ -59,7 +59,7 @@ bool ends_early(GstElement* pipeline) {
          position + kMuch_ns < duration;
 }
 
-/// The reason is in the last line of GStreamer's debug text; the lines before tell the place.
+/// The last line of GStreamer's debug text has the reason; the lines before tell the place.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.substr(text.rfind('\n') + 1);
@@ -102,7 +102,7 @@ void report_warning(Playback& playback, GstMessage* message) {
   std::fprintf(stderr, "warning: %s\n", text.c_str());
 }
 
-/// For example what a device cannot render.
+/// For example, the device cannot render everything.
 void report_information(const Playback& playback, GstMessage* message) {
   GError* information = nullptr;
   gst_message_parse_info(message, &information, nullptr);
@@ -118,7 +118,7 @@ void report_missing_plugin(const Playback& playback, GstMessage* message) {
   g_free(what);
 }
 
-/// Network streams: pauses until enough data have arrived.
+/// A network stream pauses until enough data have arrived.
 void follow_buffering(Playback& playback, GstMessage* message) {
   int percent = 0;
   gst_message_parse_buffering(message, &percent);
@@ -182,14 +182,15 @@ gboolean on_signal(void* data) {
   return G_SOURCE_CONTINUE;
 }
 
-/// Of the window that the user asked for; then the video goes on without it.
+/// Whether the window of the user has failed; then the video continues without it.
 bool has_warned_of_window(const Playback& playback) {
   return std::any_of(playback.warnings.begin(), playback.warnings.end(), [](const auto& warning) {
     return warning.first.find("debug window") != std::string::npos;
   });
 }
 
-/// Whether the film has reached this second; in a pause, or while data are awaited, it does not.
+/// Whether the film has reached this second, which it does not in a pause or while data are
+/// missing.
 bool is_over(const Playback& playback) {
   gint64 position_ns = 0;
   return playback.seconds > 0 &&
@@ -200,7 +201,7 @@ bool is_over(const Playback& playback) {
 gboolean on_moment(void* data) {
   auto& playback = *static_cast<Playback*>(data);
   if (is_over(playback)) playback.stop(Ending::kEndOfVideo);
-  // The warning, if there is one, is read by then.
+  // By then, the warning has been read.
   constexpr int kMoments = 5;
   playback.unwanted = playback.watch.is_wanted() ? 0 : playback.unwanted + 1;
   if (playback.unwanted > kMoments && !has_warned_of_window(playback)) {
@@ -244,7 +245,7 @@ Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
       g_timeout_add(on_terminal ? kProgress_ms : kLoggedProgress_ms, on_progress, &playback),
   };
 
-  // The bus has a message with the reason of a failure.
+  // On failure, the bus has a message with the reason.
   gst_element_set_state(pipeline, GST_STATE_PLAYING);
   g_main_loop_run(playback.main_loop);
 

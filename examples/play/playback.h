@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Runs a pipeline and reports its messages.
 #pragma once
 
 #include <functional>
@@ -10,7 +9,7 @@
 
 enum class Ending {
   kEndOfVideo,
-  kInterrupted,  ///< Ctrl-C, told to terminate, or its window closed
+  kInterrupted,  ///< by Ctrl-C, a signal to terminate, or the closed window
   kFailed,
 };
 
@@ -33,5 +32,5 @@ struct PlaybackWatch {
 Ending run_playback(GstElement* pipeline, const std::string& film, int seconds,
                     const PlaybackWatch& watch);
 
-/// Does what a message GST_MESSAGE_REQUEST_STATE asks for: the debug window pauses and plays so.
+/// Executes a message GST_MESSAGE_REQUEST_STATE, by which the debug window pauses and plays.
 void set_requested_state(GstElement* pipeline, GstMessage* message);

@@ -47,7 +47,7 @@ void Record::add_frame(const GstStructure* message) {
   row.force_N = force_of(message);
   row.torque_Nm = number_of(message, "torque-z");
   row.begins_scene = frames_.empty() || text_of(message, "no-force-reason") == "nothing-to-compare";
-  // The film's own reason comes first: a device cannot give a force that no frame asks for.
+  // The film's own reason comes first: a device cannot exert a force that no frame causes.
   for (const std::string of : {"", "device-"}) {
     const std::string word = text_of(message, (of + "no-force-reason").c_str());
     // The first frames are analysed before the pipeline plays and the device runs.

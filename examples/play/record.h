@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What spidarmotion tells while a film is played.
 #pragma once
 
 #include <array>
@@ -12,19 +11,19 @@
 
 #include <gst/gst.h>
 
-/// Of the reason why nothing is felt, in messages and `stats`: something is.
+/// The reason `none` in messages and `stats`: something is felt.
 constexpr const char* kFelt = "none";
 
-/// What a frame asks for. x is right, y up, z towards the viewer.
+/// The wrench of a frame. x is right, y up, z towards the viewer.
 struct FrameRow {
-  double time_s = 0;                      ///< running time at which it is shown
-  bool is_measured = true;                ///< else its force is that of a haptic track
-  std::array<double, 2> velocity_px_s{};  ///< zero unless it is measured
+  double time_s = 0;                      ///< running time at which the frame is shown
+  bool is_measured = true;                ///< otherwise the force is that of a haptic track
+  std::array<double, 2> velocity_px_s{};  ///< zero unless measured
   std::array<double, 3> force_N{};
   double torque_Nm = 0;  ///< about z
-  /// Why nothing of it is felt, as a word; by the newest frame that shows its picture again.
+  /// Why nothing is felt, as a word; from the newest frame that repeats the picture.
   std::string reason = kFelt;
-  /// It was not compared with the frame before it: the first one, or the first after a cut or seek.
+  /// Whether there was no frame to compare with: the first one, or the first after a cut or seek.
   bool begins_scene = false;
 };
 
@@ -33,23 +32,23 @@ struct DeviceRow {
   double time_s = 0;  ///< running time
   std::array<double, 3> force_N{};
   double torque_Nm = 0;
-  std::vector<double> tension_N;  ///< of each string; 0 for those that the device does not have
+  std::vector<double> tension_N;  ///< of each string; 0 for missing strings
 };
 
-/// Rows of a playback in the order in which they come.
+/// What spidarmotion reports while a film is played, in order.
 class Record {
  public:
-  /// Takes a message `spidar-motion`; it comes before its frame is shown.
+  /// Takes a message `spidar-motion`, which comes before its frame is shown.
   void add_frame(const GstStructure* message);
-  /// Takes the element's `stats`; nothing of it unless a device runs.
+  /// Takes the element's `stats`, if a device runs.
   void add_device(const GstStructure* stats, double time_s);
 
-  /// Without frames that show the previous picture again: its force remains.
+  /// The frames without those that repeat a picture, whose force remains.
   const std::vector<FrameRow>& frames() const { return frames_; }
   size_t repeated() const { return repeated_; }
-  /// File name of the haptic track that was played last; empty if there was none.
+  /// The file name of the last haptic track; empty if there was none.
   const std::string& track() const { return track_; }
-  /// Time and word of the reason of every frame, also of those that show a picture again.
+  /// Time and word of the reason of every frame, also of repetitions.
   const std::vector<std::pair<double, std::string>>& reasons() const { return reasons_; }
   /// Running times of the first and the last frame, else of the device's rows; 0 without any.
   std::pair<double, double> span_s() const;
@@ -67,5 +66,5 @@ class Record {
   std::map<std::string, std::string> sentences_;
   std::string track_;
   size_t repeated_ = 0;
-  size_t shown_ = 0;  ///< number of frames that shown_at() has passed
+  size_t shown_ = 0;  ///< the number of frames that shown_at() has passed
 };

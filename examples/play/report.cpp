@@ -14,7 +14,7 @@
 
 namespace {
 
-/// Reasons of less than this fraction of the frames are left out.
+/// Reasons of a smaller fraction of the frames are left out.
 constexpr double kWorthALine = 0.005;
 
 template <typename... Values>
@@ -30,7 +30,6 @@ uint64_t count_in(const GstStructure* stats, const char* name) {
   return value;
 }
 
-/// Of a time in ns.
 double ms_in(const GstStructure* stats, const char* name) {
   return 1e-6 * static_cast<double>(count_in(stats, name));
 }
@@ -44,7 +43,7 @@ std::string percent(size_t part, size_t all) {
   return text_of("%.1f %%", 100.0 * static_cast<double>(part) / static_cast<double>(all));
 }
 
-/// In the order of their size.
+/// Returns the rows in the order of their size.
 template <typename Row>
 std::vector<double> forces_N(const std::vector<Row>& rows) {
   std::vector<double> sizes;
@@ -55,7 +54,7 @@ std::vector<double> forces_N(const std::vector<Row>& rows) {
   return sizes;
 }
 
-/// Number of frames, also of those that show a picture again, by the word of their reason.
+/// The number of frames, with repetitions, by the word of their reason.
 std::map<std::string, size_t> counted_reasons(const Record& record) {
   std::map<std::string, size_t> reasons;
   for (const auto& [time_s, word] : record.reasons()) ++reasons[word];
@@ -73,7 +72,7 @@ std::string force_line(const Record& record) {
 
 std::string time_line(const GstStructure* stats) {
   const double median_ms = ms_in(stats, "skew-median");
-  // Zero: no frame has reached a device.
+  // The median is zero when no frame has reached a device.
   if (!(median_ms > 0)) return "In time: not measured, because no frame reached a device.\n";
   return text_of(
       "In time: a force comes %.2f ms after its frame in the median, %.2f ms at 99 %%.\n",
@@ -151,7 +150,7 @@ std::string felt_text(const Record& record) {
 
 std::string report_text(const Record& record, const GstStructure* stats, uint64_t shown) {
   const auto [begin_s, end_s] = record.span_s();
-  // Both counts include what was played before a seek, at which the record begins again.
+  // Both counts include the frames before a seek, at which the record begins again.
   const uint64_t analysed = count_in(stats, "frames");
   const std::string of_them =
       record.track().empty() ? text_of("%" PRIu64 " analysed of ", analysed) : "";
@@ -172,7 +171,7 @@ std::string progress_line(double time_s, const FrameRow* frame) {
   const auto& force_N = frame->force_N;
   const double size_N = std::hypot(force_N[0], force_N[1], force_N[2]);
   const int filled = std::min(kBar, static_cast<int>(std::lround(kBar * size_N / kFullBar_N)));
-  char speed[24] = "";  // a track does not say how fast anything moves
+  char speed[24] = "";  // a track contains no speeds
   if (frame->is_measured) {
     std::snprintf(speed, sizeof speed, "  %6.0f px/s",
                   std::hypot(frame->velocity_px_s[0], frame->velocity_px_s[1]));

@@ -32,7 +32,7 @@ std::string failure_of(GstElement* pipeline) {
   return reason;
 }
 
-/// No pixels when the frame cannot be read.
+/// Returns no pixels when the frame cannot be read.
 GreyPicture picture_of(GstSample* sample) {
   GreyPicture picture;
   GstVideoInfo info;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The first picture of a file.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +9,6 @@
 
 #include "core/picture/image_view.h"
 
-/// Grey levels of a picture.
 struct GreyPicture {
   std::vector<uint8_t> pixels;
   int width = 0, height = 0;
@@ -19,6 +17,6 @@ struct GreyPicture {
   spidar::ImageView view() const { return {pixels.data(), width, height, stride_bytes}; }
 };
 
-/// Decodes the first frame of a picture or film with GStreamer, which is initialised. Throws
+/// Decodes the first frame of a picture or film with GStreamer, which must be initialised. Throws
 /// std::runtime_error that says why there is no picture.
 GreyPicture first_picture(const std::string& file);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Simulates a hand that strokes across a picture, and draws what it feels. examples/touch.sh
-/// builds it. The relief, the 1 kHz loop and the simulated device are those of the element;
-/// playback is left out, because a still picture needs none.
+/// builds this program. The relief, the 1 kHz loop and the simulated device are those of the
+/// element; a still picture needs no playback.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
@@ -64,11 +64,11 @@ plot $ticks using 1:6 skip 1 with lines linewidth 1.5 linecolor rgb '#0b5fa5' ti
 
 constexpr int kApproach_ticks = 600;  ///< to the left side, then into the surface
 constexpr int kStroke_ticks = 4000;
-/// Target position of the hand behind the middle of the relief: it presses with about 1.5 N.
+/// The target of the hand lies behind the middle of the relief: the hand presses with about 1.5 N.
 constexpr double kPress_m = 0.008;
 constexpr double kStroke = 0.8;  ///< of the picture's width
 
-/// The picture's relief, as touch=luma makes it, or that of its depth, as touch=depth does.
+/// Publishes the picture's relief, as with touch=luma, or that of its depth, as with touch=depth.
 void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
   touch::Surface& frame = *mailbox.begin(mailbox.generation());
   touch::ReliefSettings settings;
@@ -88,7 +88,7 @@ void publish(const ImageView& picture, bool is_depth, touch::Mailbox& mailbox) {
   mailbox.publish();
 }
 
-/// Target of the hand at a tick: to the side of the picture, in, across, out.
+/// The target of the hand at a tick: to the side of the picture, in, across, out.
 Eigen::Vector3d hand_m(int tick, double half_width_m) {
   const double side_m = kStroke * half_width_m;
   if (tick < kApproach_ticks) return {-side_m, 0, kPress_m};
@@ -113,7 +113,7 @@ std::string relief_csv(const touch::HeightField& relief) {
   return out.str();
 }
 
-/// Of what this program wrote, nothing else is replaced.
+/// Only files of this program are replaced.
 const PartFile::Replaces kOwn{true, "touch.sh", false};
 
 void save(const std::string& csv, const fs::path& path) {

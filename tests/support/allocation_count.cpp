@@ -15,8 +15,7 @@ void count() {
 }
 }  // namespace
 
-// Takes the place of the C library's functions in the whole program. glibc offers its own under
-// these names.
+// Replaces the C library's functions in the whole program. glibc offers its own under these names.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

@@ -6,11 +6,11 @@
 
 namespace spidar::test {
 
-/// How often a program that refers to it has taken memory from the heap: malloc() and what ends
-/// there, such as operator new and Eigen.
+/// How often a program that refers to this variable has allocated memory: malloc() and everything
+/// that calls it, such as operator new and Eigen.
 extern std::atomic<long> allocations;
 
-/// A sanitizer has a heap of its own, of which nothing is counted.
+/// A sanitizer has its own heap, which is not counted.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kCountsAllocations = false;
 #else

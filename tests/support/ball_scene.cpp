@@ -13,7 +13,7 @@ namespace {
 constexpr double kRest_s = 1e-9;
 constexpr double kPlainGrey = 128;
 
-/// Grid of the textures: structures of a few pixels in a picture reduced to 480 px.
+/// The grid of the textures: structures of a few pixels in a picture reduced to 480 px.
 double cell_px(const BallSettings& settings) {
   return settings.height / 45.0;
 }
@@ -83,7 +83,7 @@ Eigen::Vector2d BallScene::acceleration_px_s2(double t_s) const {
 std::vector<double> BallScene::impacts_s(double until_s) const {
   std::vector<double> impacts;
   double t_s = until_s;
-  // Backwards: each flight but the first begins with an impact.
+  // Backwards in time: each flight but the first begins with an impact.
   for (Flight flight = flight_at(t_s); flight.begin_s > 0;) {
     impacts.push_back(flight.begin_s);
     t_s = std::nextafter(flight.begin_s, 0.0);
@@ -106,7 +106,7 @@ void BallScene::render(double t_s, uint8_t* data, ptrdiff_t stride_bytes) const 
     const int last = std::min(settings_.width - 1, static_cast<int>(std::ceil(centre.x() + reach)));
     for (int x = first; x <= last; ++x) {
       const double dx = x - centre.x();
-      // Fraction of the pixel that the disc covers, its edge taken as straight.
+      // The fraction of the pixel that the disc covers, with its edge taken as straight.
       const double cover =
           std::min(1.0, std::max(0.0, settings_.radius_px - std::hypot(dx, dy) + 0.5));
       if (cover == 0) continue;

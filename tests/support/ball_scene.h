@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A bouncing ball whose motion is known exactly: the paper's Fig. 6.
 #pragma once
 
 #include <cstddef>
@@ -20,16 +19,17 @@ struct BallSettings {
   int height = 360;
   double radius_px = 40;
   Eigen::Vector2d start_px{320, 60};  ///< centre at t = 0
-  double horizontal_px_s = 0;         ///< velocity to the right, constant
-  double floor_px = 340;              ///< y of the floor, which the lower edge hits
+  double horizontal_px_s = 0;         ///< constant, to the right
+  double floor_px = 340;              ///< where the lower edge of the ball bounces
   double gravity_px_s2 = 1500;        ///< > 0, downwards
   double restitution = 0.85;          ///< speed after / before an impact, 0 … 1
   bool textured_background = false;   ///< false: plain grey
   uint32_t seed = 1;                  ///< of the textures
 };
 
-/// The ball falls from rest, loses a part of its speed at each impact, and comes to rest on the
-/// floor when the impacts have become infinitely short.
+/// A bouncing ball whose motion is known exactly: the paper's Fig. 6. The ball falls from rest,
+/// loses a part of its speed at each impact, and comes to rest on the floor when the impacts have
+/// become infinitely short.
 class BallScene {
  public:
   /// Throws std::invalid_argument when the ball does not start above the floor or a value is out of
@@ -42,13 +42,13 @@ class BallScene {
   Eigen::Vector2d position_px(double t_s) const;
   /// At an impact: the velocity after it.
   Eigen::Vector2d velocity_px_s(double t_s) const;
-  /// Gravity while it flies, 0 at rest; the impulse of an impact is not in it.
+  /// Gravity during a flight, 0 at rest; without the impulse of an impact.
   Eigen::Vector2d acceleration_px_s2(double t_s) const;
   /// Times of the impacts in [0, until_s].
   std::vector<double> impacts_s(double until_s) const;
 
-  /// Draws the frame at `t_s`: `settings().height` rows of `width` bytes, `stride_bytes` apart.
-  /// The ball carries its texture along, exact to any part of a pixel; its edge is one pixel soft.
+  /// Draws the frame at `t_s`: `settings().height` rows of `width` bytes, `stride_bytes` apart. The
+  /// ball carries its texture along, exact to any part of a pixel; its edge is one pixel soft.
   void render(double t_s, uint8_t* data, ptrdiff_t stride_bytes) const;
 
  private:

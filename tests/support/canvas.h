@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A frame to draw into, whose pixels are read back.
 #pragma once
 
 #include "plugin/frame/frame_report.h"
@@ -14,7 +13,7 @@ namespace spidar::test {
 /// Red, green and blue.
 using Pixel = std::array<int, 3>;
 
-/// A grey frame in memory that is watched on both sides.
+/// A grey frame in memory to draw into, with watched pages on both sides.
 class Canvas {
  public:
   Canvas(const char* format, int width, int height) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A program that a test starts, and ends with a signal.
 #pragma once
 
 #include <csignal>
@@ -16,8 +15,8 @@ namespace spidar::test {
 
 class ChildProcess {
  public:
-  /// `arguments` begin with the program, which is looked for in $PATH; `environment` has more lines
-  /// NAME=VALUE for it.
+  /// Starts a program. `arguments` begin with the program, which is searched in $PATH;
+  /// `environment` has more lines NAME=VALUE for it.
   explicit ChildProcess(std::vector<std::string> arguments,
                         std::vector<std::string> environment = {}) {
     std::vector<char*> argv, env;
@@ -33,7 +32,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  /// Returns when the process has ended.
+  /// Sends the signal and returns when the process has ended.
   void end(int signal) {
     if (process_ < 0) return;
     kill(process_, signal);
@@ -43,10 +42,10 @@ class ChildProcess {
 
   pid_t id() const { return process_; }
 
-  /// Returns at once, whatever the signal does.
+  /// Sends the signal and returns at once.
   void send(int signal) const { kill(process_, signal); }
 
-  /// Its exit status when it has ended by itself; −1 when a signal ended it.
+  /// Waits for the process. Returns its exit status; −1 when a signal ended it.
   int wait() {
     int status = -1;
     waitpid(process_, &status, 0);
@@ -54,7 +53,6 @@ class ChildProcess {
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
 
-  /// Whether it is still running.
   bool lives() {
     if (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
     return process_ > 0;

@@ -17,8 +17,9 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector2i;
 
-/// As of noise that is blurred by a Gaussian of σ = `blur_px`, of a standard deviation of
-/// `sigma_grey`. Both are those of cubic B-splines over values that are uniform from −120 to 120.
+/// The grey of noise that is blurred by a Gaussian of σ = `blur_px`, with a standard deviation of
+/// `sigma_grey`. Both figures are those of cubic B-splines over values that are uniform from −120
+/// to 120.
 double soft(uint32_t seed, double blur_px, double sigma_grey, double x, double y) {
   const double spread_grey = 120 / std::sqrt(3.0) * 151 / 315;
   return sigma_grey / spread_grey * (Texture(seed, std::sqrt(3.0) * blur_px).at(x, y) - 128);
@@ -83,7 +84,7 @@ Vector2d CodedFilm::square_moved_px(int n) const {
   return (square_px(n) - square_px(n - 1)).cast<double>();
 }
 
-/// Its upper left corner.
+/// The upper left corner of the square.
 Vector2i CodedFilm::square_px(int n) const {
   const int moved = std::max(0, n - kRests + 1);
   Vector2d at_px(width_px / 5.0, (height_px - side_px) / 2.0);
@@ -98,7 +99,7 @@ Vector2i CodedFilm::square_px(int n) const {
 }
 
 std::vector<Picture> CodedFilm::drawn() const {
-  // The wall is drawn once, as large as is seen of it.
+  // The wall is drawn once, as large as the film shows it.
   const Vector2i margin_px = (kPictures - kRests) * pan_px.cwiseAbs();
   const int whole_width = width_px + 2 * margin_px.x();
   std::vector<double> whole;

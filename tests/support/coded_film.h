@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films in which little shows how the camera moves, as encoders leave them.
 #pragma once
 
 #include <optional>
@@ -13,13 +12,14 @@
 
 namespace spidar::test {
 
-/// A textured square before a wall. Everything rests in the first pictures.
+/// A film whose pictures hardly show how the camera moves after coding: a textured square before a
+/// wall. Everything rests in the first pictures.
 ///
-/// Encoders keep little of a faint wall, and noise least of all: HEVC and AV1 move that around an
-/// object along with it, so that it looks as if the camera moved.
+/// Encoders keep little of a faint wall, and noise least of all: HEVC and AV1 move the wall around
+/// an object along with it, so that the camera seems to move.
 struct CodedFilm {
   static constexpr int kPictures = 48;
-  static constexpr int kRests = 8;  ///< pictures in which nothing has moved yet
+  static constexpr int kRests = 8;  ///< pictures before the first motion
 
   enum class Wall { kPlain, kSlope, kShade, kFaint, kIce, kBlur, kDark, kMeadow };
   int width_px = 640;
@@ -28,8 +28,8 @@ struct CodedFilm {
   std::string coding;              ///< options of ffmpeg
   Eigen::Vector2i pan_px{0, 0};    ///< motion of the wall from picture to picture
   int side_px = 0;                 ///< of the square; 0: there is none
-  double radius_px = 1;            ///< of the circle on which it moves
-  Eigen::Vector2d step_px{0, 0};   ///< or, if not 0, its motion from picture to picture
+  double radius_px = 1;            ///< of the circle of its motion
+  Eigen::Vector2d step_px{0, 0};   ///< if not 0, its motion from picture to picture instead
   double speed_px = 0;             ///< on the circle
   double noise_grey = 5 / 1.7321;  ///< σ; as of ffmpeg's noise=alls=5
 
@@ -37,7 +37,7 @@ struct CodedFilm {
   Eigen::Vector2d wall_moved_px(int n) const;
   Eigen::Vector2d square_moved_px(int n) const;
 
-  /// The pictures after coding and decoding; none if ffmpeg cannot code so.
+  /// The pictures after coding and decoding; none if ffmpeg lacks that coding.
   std::vector<Picture> pictures() const;
 
  private:
@@ -45,7 +45,7 @@ struct CodedFilm {
   std::vector<Picture> drawn() const;
 };
 
-/// What people use, the fastest and others: name and options.
+/// Common codings, the fastest and others: name and options.
 struct Coding {
   const char* name;
   const char* options;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// In how much of a CodedFilm the analysis is right.
 #pragma once
 
 #include <vector>
@@ -10,13 +9,13 @@
 
 namespace spidar::test {
 
-/// Of the pictures from kFirst on.
+/// In how many pictures of a CodedFilm the analysis is right, from kFirst on.
 struct CodedFilmScore {
-  static constexpr int kFirst =
-      CodedFilm::kRests + 4;  ///< by then, something has been seen to move
+  static constexpr int kFirst = CodedFilm::kRests + 4;  ///< by then, something has moved
   int pictures = 0;
-  int camera = 0;  ///< its motion is right to half a pixel, to which a search by whole pixels is
-  int felt = 0;  ///< right to half of the true motion; less than 0.1 px if nothing moves by itself
+  /// Its motion is right to half a pixel, the precision of a search by whole pixels.
+  int camera = 0;
+  int felt = 0;  ///< right to half of the true motion; less than 0.1 px if no object moves
 };
 
 inline CodedFilmScore score(const CodedFilm& film, const std::vector<Picture>& pictures) {

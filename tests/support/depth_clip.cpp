@@ -18,14 +18,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The same numbers with every standard library.
+/// Draws the same numbers with every standard library.
 class Draws {
  public:
   explicit Draws(uint32_t seed) : engine_(seed) {}
   double between(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_()) * 0x1p-32);
   }
-  /// Each factor is as likely.
+  /// Draws a ratio, uniform in its logarithm.
   double of_ratios(double low, double high) {
     return std::exp(between(std::log(low), std::log(high)));
   }
@@ -35,8 +35,8 @@ class Draws {
   std::mt19937 engine_;
 };
 
-/// Grey levels with details of all sizes, of which every octave has the same contrast, −1 … 1. It
-/// repeats after kSide_px, mirrored, and is drawn once.
+/// Grey levels −1 … 1 with details of all sizes, of which every octave has the same contrast. The
+/// pattern repeats after kSide_px, mirrored, and is drawn once.
 class Grain {
  public:
   Grain() {
@@ -247,7 +247,7 @@ void DepthClip::draw(const Plane& plane, const View& view, std::vector<float>& g
       if (!(at.z() > 0)) continue;
       const Eigen::Vector2d on = at.head<2>() / at.z();
       const Eigen::Matrix2d texels = (to_plane.topLeftCorner<2, 2>() - on * along) / at.z();
-      // Half of the logarithm of how many texels a pixel covers.
+      // Half of the logarithm of the number of texels that a pixel covers.
       const double size = std::log2(std::abs(texels.determinant())) / 2;
       const double level = std::clamp(size, 0.0, static_cast<double>(plane.skins.size() - 1));
       const Skin& skin = plane.skins[static_cast<size_t>(level)];

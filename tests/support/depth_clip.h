@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Short films of scenes with depth, in which nothing moves but the camera.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +11,8 @@
 
 namespace spidar::test {
 
-/// Textured planes before a pinhole camera: things at several depths, and patterns that repeat.
+/// A short film of a scene with depth, in which only the camera moves: textured planes before a
+/// pinhole camera, at several depths, and repeating patterns.
 class DepthClip {
  public:
   static constexpr int kWidth = 424;
@@ -21,7 +21,7 @@ class DepthClip {
 
   enum class Kind {
     kRelief,    ///< cards before a wall; the camera travels
-    kOrbit,     ///< the same, nearer; the camera moves about them and looks at them
+    kOrbit,     ///< the same, nearer; the camera circles and faces them
     kFacade,    ///< windows of a slanted house
     kRoof,      ///< rows of tiles, slanted
     kRailing,   ///< bars before a wall
@@ -38,18 +38,18 @@ class DepthClip {
   Picture picture(int n) const;
 
  private:
-  /// Grey level and opacity of a plane, each time at half the size of the one before.
+  /// Grey level and opacity of a plane, each level at half the size of the one before.
   struct Skin {
     int width = 0, height = 0;
     std::vector<float> grey, opacity;
   };
-  /// A rectangle: a texel is a unit of length. At depth kFocus_px, it covers a pixel.
+  /// A rectangle: a texel is a unit of length. At depth kFocus_px, a texel covers a pixel.
   struct Plane {
     std::vector<Skin> skins;
     Eigen::Vector3d centre;
     Eigen::Vector3d right, down;  ///< of length 1
   };
-  /// A place of the camera, and how it is turned: world to camera.
+  /// Position and rotation of the camera: world to camera.
   struct View {
     Eigen::Vector3d from;
     Eigen::Matrix3d turned;

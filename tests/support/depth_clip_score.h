@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// In how much of DepthClips the analysis lets something be felt, though only the camera moves.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +19,8 @@ struct DepthClipScore {
   }
 };
 
-/// Of the pictures from the third on, and with the speed from which on tests/bench/real_films.py
-/// calls a motion felt.
+/// In how many pictures something is felt though only the camera moves, from the third picture on,
+/// with the lowest speed that tests/bench/real_films.py calls felt.
 inline DepthClipScore score(const DepthClip& clip) {
   constexpr int64_t kPicture_ns = 40'000'000;
   constexpr int kFirst = 2;
@@ -38,7 +37,7 @@ inline DepthClipScore score(const DepthClip& clip) {
   return score;
 }
 
-/// Of so many clips.
+/// The sum over this number of clips.
 inline DepthClipScore score(DepthClip::Kind kind, int clips) {
   DepthClipScore sum;
   for (int i = 0; i < clips; ++i) {
@@ -46,7 +45,7 @@ inline DepthClipScore score(DepthClip::Kind kind, int clips) {
   }
   return sum;
 }
-/// Of each kind, for the benchmarks: 252 in all.
+/// The number of clips of each kind for the benchmarks: 252 in all.
 constexpr int kDepthClips = 36;
 
 }  // namespace spidar::test

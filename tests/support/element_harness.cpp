@@ -9,7 +9,7 @@ namespace spidar::test {
 
 void init_gstreamer() {
   static const bool done = [] {
-    // So that a test can be run by hand, too.
+    // This also lets the program run by hand.
     g_setenv("SPIDAR_PROFILE_PATH", SPIDAR_SOURCE_PROFILES, FALSE);
     gst_init(nullptr, nullptr);
     return GST_ELEMENT_REGISTER(spidarmotion, nullptr) != FALSE;
@@ -47,7 +47,7 @@ MotionMessage parse_motion_message(GstMessage* message) {
   return m;
 }
 
-// What is felt of a frame is then a plain function of that frame.
+// Without a filter, the force of a frame is a plain function of that frame.
 static const std::string kPaper = "spidarmotion motion=mean filter-min-cutoff=0 ";
 
 ElementHarness::ElementHarness(const std::string& properties, std::function<int64_t()> now) {

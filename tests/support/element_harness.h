@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A spidarmotion in a GstHarness, and its output.
 #pragma once
 
 #include <functional>
@@ -16,7 +15,7 @@
 
 namespace spidar::test {
 
-/// gst_init() and registration of the element, once a process. No plugin of the system is needed.
+/// Calls gst_init() and registers the element, once a process. No plugin of the system is needed.
 void init_gstreamer();
 
 /// The values of one `spidar-motion` message.
@@ -26,24 +25,24 @@ struct MotionMessage {
   double velocity_x = 0, velocity_y = 0;
   Wrench wrench;
   bool repeated = false;
-  std::string no_force, no_force_text;  ///< the latter may be missing
+  std::string no_force, no_force_text;  ///< the text may be missing
   std::string device_no_force;
   std::string track;
 };
 MotionMessage parse_motion_message(GstMessage* message);
 
-/// Owns the harness and the element's bus. Unless properties say otherwise, the element works as in
-/// the paper: motion=mean without a filter.
+/// A spidarmotion in a GstHarness, with its bus and its output. Unless properties say otherwise,
+/// the element works as in the paper: motion=mean without a filter.
 class ElementHarness {
  public:
   /// `properties` as in a launch line, e.g. "device=none alpha=0.02". `now` replaces
-  /// CLOCK_MONOTONIC, and the haptic loop is ticked by the test.
+  /// CLOCK_MONOTONIC, and the test ticks the haptic loop.
   explicit ElementHarness(const std::string& properties = "device=none",
                           std::function<int64_t()> now = nullptr);
   ~ElementHarness();
 
-  void set_caps(GstCaps* caps);  // takes them
-  /// Pushes a frame; its flow return. `flags` are GstBufferFlags.
+  void set_caps(GstCaps* caps);  // takes ownership
+  /// Pushes a frame and returns its flow. `flags` are GstBufferFlags.
   GstFlowReturn push(GstBuffer* frame, GstClockTime pts, guint flags = 0);
   GstFlowReturn push_moved(double dx, double dy, GstClockTime pts, guint flags = 0);
 
@@ -51,7 +50,6 @@ class ElementHarness {
   const std::vector<MotionMessage>& motions();
   const std::vector<std::string>& warnings();
   const std::vector<std::string>& errors();
-  /// Of QoS messages.
   const std::vector<gint>& qualities();
 
   GstElement* element() const { return harness_->element; }

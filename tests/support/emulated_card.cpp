@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// A sound card as a plugin of ALSA's library, which keeps what it plays and when. In ALSA's
+// A sound card as a plugin of ALSA's library, which records what it plays and when. In ALSA's
 // configuration:
 //   pcm_type.emulated { lib PATH }
 //   pcm.shaker { type emulated channels 4 latency_ms 40 file PATH gone PATH }
 // Its clock is CLOCK_MONOTONIC. Sound is heard `latency_ms` after it leaves the buffer, which
-// snd_pcm_delay() says, too. `file` receives a Heard for each write, and its samples. The card is
-// unplugged while the file `gone` exists, and as if suspended while there is `fails`. With
-// `period_ms`, it takes sound in such steps and no shorter ones; with `buffer_ms`, its buffer has
-// this size.
+// snd_pcm_delay() includes. `file` receives a Heard for each write, and its samples. The card is
+// unplugged while the file `gone` exists, and seems suspended while `fails` exists. With
+// `period_ms`, the card takes sound in such steps and no shorter ones; `buffer_ms` is the size of
+// its buffer.
 #include "tests/support/emulated_card.h"
 
 #include <alsa/asoundlib.h>
@@ -30,7 +30,7 @@ struct Card {
   long channels = 2, latency_ms = 0, period_ms = 0, buffer_ms = 0;
   std::string file, gone, fails;
   FILE* out = nullptr;
-  int64_t start_ns = 0;  // when the first frame left the buffer; 0: it does not run
+  int64_t start_ns = 0;  // when the first frame left the buffer; 0: the card does not run
   int64_t written = 0;   // frames since prepare()
 
   bool is_gone() const { return access(gone.c_str(), F_OK) == 0; }
@@ -79,8 +79,8 @@ snd_pcm_sframes_t pointer(snd_pcm_ioplug_t* io) {
   return static_cast<snd_pcm_sframes_t>(played % static_cast<int64_t>(io->buffer_size));
 }
 
-/// The frames before a start are heard when it starts, which is not known yet: they are noted with
-/// the time 0.
+/// Frames before a start are heard when the card starts, which is unknown yet: they are recorded
+/// with the time 0.
 snd_pcm_sframes_t transfer(snd_pcm_ioplug_t* io, const snd_pcm_channel_area_t* areas,
                            snd_pcm_uframes_t offset, snd_pcm_uframes_t size) {
   Card& card = card_of(io);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the emulated sound card has played, see emulated_card.cpp.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +7,14 @@
 
 namespace spidar::test {
 
-/// Followed by frames × channels samples of 16 bits.
+/// What the emulated sound card has played, see emulated_card.cpp. Frames × channels samples of 16
+/// bits follow.
 struct Heard {
   enum Kind : uint64_t { kPlayed, kStopped, kPrepared, kDry };
   uint64_t kind;
-  int64_t at_ns;  ///< of the first frame; 0: when those after it are
+  int64_t at_ns;  ///< of the first frame; 0: at the start
   uint32_t frames, channels;
-  uint32_t waiting;  ///< frames that the buffer has then
+  uint32_t waiting;  ///< frames in the buffer then
 };
 
 inline int64_t now_ns() {

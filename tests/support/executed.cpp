@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 
-// What Clang's -fsanitize-coverage=func,trace-pc-guard calls, for tests/check_executed.py: a file
-// for each program and library, in the folder EXECUTED_IN, with a word for each of its functions.
-// The word is 0 until a process executes the function, then the offset of an instruction in it. All
-// these processes have the file in their memory, so that it does not matter how they end.
-// tests/run.sh links this with every program and library.
+// The functions that Clang's -fsanitize-coverage=func,trace-pc-guard calls, for
+// tests/check_executed.py: they fill a file for each program and library, in the folder
+// EXECUTED_IN, with a word for each of its functions. The word is 0 until a process executes the
+// function, then the offset of an instruction in it. All processes map this file, so the way in
+// which they end does not matter. tests/run.sh links this source with every program and library.
 
 #include <algorithm>
 #include <cstdint>
@@ -23,7 +23,7 @@ std::uintptr_t g_base;  // where the program or library begins
 
 // The file for a program or library: its path, with ! for /.
 std::string file_of(const std::string& name) {
-  // A program that the shell found has a name without a folder.
+  // The name of a program that the shell found has no folder.
   char* path = realpath(name.find('/') == name.npos ? "/proc/self/exe" : name.c_str(), nullptr);
   std::string file = path ? path : "";
   std::free(path);
@@ -31,7 +31,7 @@ std::string file_of(const std::string& name) {
   return EXECUTED_IN "/" + file;
 }
 
-// Null when that is not possible.
+// Returns null when that is not possible.
 std::uint64_t* map_words(const std::string& file, std::size_t count) {
   const std::size_t bytes = count * sizeof(std::uint64_t);
   const int descriptor = open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
@@ -45,12 +45,12 @@ std::uint64_t* map_words(const std::string& file, std::size_t count) {
 
 }  // namespace
 
-// Hidden: each program and library has words of its own.
+// Hidden, because each program and library has its own words.
 #pragma GCC visibility push(hidden)
 extern "C" {
 
-// When a program or library is loaded, and again for each of its objects: a guard for each
-// function.
+// Clang calls this when a program or library is loaded, and again for each of its objects: with a
+// guard for each function.
 void __sanitizer_cov_trace_pc_guard_init(std::uint32_t* begin, std::uint32_t* end) {
   Dl_info module{};
   if (g_base || !dladdr(begin, &module)) {
@@ -63,10 +63,10 @@ void __sanitizer_cov_trace_pc_guard_init(std::uint32_t* begin, std::uint32_t* en
   }
 }
 
-// At the beginning of each function.
+// Clang calls this at the beginning of each function.
 void __sanitizer_cov_trace_pc_guard(std::uint32_t* guard) {
   if (*guard) {
-    // Where the call returns to is in the function, one byte before it is the call.
+    // The return address is in the function, one byte before it is the call.
     const auto call = reinterpret_cast<std::uintptr_t>(__builtin_return_address(0)) - 1;
     __atomic_store_n(&g_words[*guard - 1], call - g_base, __ATOMIC_RELAXED);
     *guard = 0;

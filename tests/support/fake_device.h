@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device that records its input and gives the configured answers.
 #pragma once
 
 #include <atomic>
@@ -14,7 +13,7 @@
 
 namespace spidar::test {
 
-/// Of a grip at `pose`, when it was at the centre as the device was opened.
+/// The counts of a grip at `pose` that was at the centre when the device was opened.
 inline std::array<int32_t, kMaxStrings> counts_at(const Profile& profile, const Pose& pose) {
   const StringVector change_m =
       string_lengths_m(profile.geometry, pose) - string_lengths_m(profile.geometry, {});
@@ -33,7 +32,7 @@ inline std::array<int32_t, kMaxStrings> counts_at(const Profile& profile, const 
 struct FakeDeviceLog {
   /// Whether the device is present, so that open() works.
   std::atomic<bool> present{true};
-  /// Answer of every exchange; kGone also closes.
+  /// The answer of every exchange; kGone also closes.
   std::atomic<LinkFault> answer{LinkFault::kNone};
   std::array<int32_t, kMaxStrings> count{};  ///< counts of the encoders
 

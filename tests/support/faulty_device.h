@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device between the loop and the simulated one, on which strings break, encoders fail and the
-/// link is lost. Like a real board, it keeps its last output while nothing reaches it.
+/// A device between the loop and the simulated one, with strings that break, encoders that fail and
+/// a link that is lost. Like a real board, it keeps its last output while nothing reaches it.
 #pragma once
 
 #include <array>
@@ -18,24 +18,24 @@ class FaultyDevice final : public StringDevice {
   FaultyDevice(SimulatedDevice& inner, const Profile& profile)
       : StringDevice(inner.name()), inner_(inner), profile_(profile) {}
 
-  /// The string breaks: it pulls no longer, and its motor winds up what is left of it.
+  /// Breaks a string: it no longer pulls, and its motor winds up the rest.
   void cut(int string) { cut_ |= 1u << string; }
   void stop_encoder(int string) { stopped_ |= 1u << string; }
-  /// Its encoder counts so much more from now on.
+  /// Adds counts to an encoder from now on.
   void shift(int string, int32_t counts) { move(static_cast<size_t>(string), counts); }
-  /// kNone: works again.
+  /// Sets the fault of the link; kNone repairs it.
   void set_link(LinkFault link) { link_ = link; }
 
-  /// A millisecond in which nobody talks to the board.
+  /// Lets a millisecond pass without an exchange.
   void hold() {
     DeviceReading ignored;
     pass(ignored);
   }
-  /// Zero volts from now on, if the link works.
+  /// Sets the motors to zero volts from now on, if the link works.
   void zero() {
     if (link_ != LinkFault::kTimeout) volts_ = {};
   }
-  /// What acts at the strings when the motors have followed.
+  /// The tensions at the strings when the motors have followed.
   StringVector told_N() const { return tensions_N(acting(), profile_); }
 
   void open() override {
@@ -56,7 +56,7 @@ class FaultyDevice final : public StringDevice {
     reading = last_;
     return status;
   }
-  /// Sends zero; when the link does not work, the guardian does as soon as it works again.
+  /// Sends zeros; while the link does not work, the guardian waits and then sends them.
   void close() noexcept override { closing_ = true; }
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The force of a film in each millisecond, and the difference of two such curves.
 #pragma once
 
 #include <cmath>
@@ -20,14 +19,14 @@ namespace spidar::test {
 struct ShownFrame {
   int64_t time_ns;
   const Picture* picture;
-  bool flagged = false;  ///< flagged as repeated, as by videorate, and not analysed
+  bool flagged = false;  ///< marked as repeated, as by videorate, and not analysed
 };
 
-/// Force in each millisecond. A frame becomes known `ahead_ns` before it is shown.
+/// The force in each millisecond. A frame becomes known `ahead_ns` before it is shown.
 inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, int64_t ahead_ns,
                                          const AnalyzerSettings& settings = {}) {
   constexpr int64_t kTick_ns = 1'000'000;
-  constexpr int64_t kLate_ns = 10'000'000;  // a live frame may be so late (FilmRenderer)
+  constexpr int64_t kLate_ns = 10'000'000;  // how late a live frame may be (FilmRenderer)
   MotionAnalyzer analyzer(settings);
   WrenchTimeline timeline;
   std::vector<Eigen::Vector3d> force_N;
@@ -54,7 +53,7 @@ inline std::vector<Eigen::Vector3d> feel(const std::vector<ShownFrame>& frames, 
   return force_N;
 }
 
-/// From the millisecond `from` on.
+/// The difference of two curves of force, from the millisecond `from` on.
 struct FeltDifference {
   double strength = 0;   ///< rms of the force, over that of the plain film
   double angle_rad = 0;  ///< between the two curves, as vectors

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic session that plays a film of constant force, for force-feedback devices.
 #pragma once
 
 #include "spidar/devices/force_feedback/packets.h"
@@ -11,13 +10,13 @@
 
 namespace spidar::test {
 
-/// Waits without a limit; the test has one.
+/// Waits without a limit, because the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// A force for longer than any test lasts.
+/// A force that outlasts any test.
 inline TimedWrench lasting(const Eigen::Vector3d& force_N, int64_t time_ns = 0) {
   TimedWrench entry;
   entry.time_ns = time_ns;
@@ -26,7 +25,7 @@ inline TimedWrench lasting(const Eigen::Vector3d& force_N, int64_t time_ns = 0) 
   return entry;
 }
 
-/// A running loop with a film.
+/// A haptic session that plays a film of constant force, for force-feedback devices.
 struct FeltPlayer {
   explicit FeltPlayer(const std::string& spec = "ff", bool guardian = false) {
     boards::Settings settings;
@@ -57,7 +56,7 @@ struct FeltPlayer {
   std::unique_ptr<HapticSession> session;
 };
 
-/// A level, in newtons, is right to 1 % of the force and half a step of 3 N / 32767.
+/// Whether a level, in newtons, is right to 1 % of the force and half a step of 3 N / 32767.
 inline bool is_level(int level, double force_N, double of_N) {
   const double got_N = ff::kFullForce_N * level / ff::kFullLevel;
   return std::abs(got_N - force_N) <= 0.01 * of_N + 0.5 * ff::kFullForce_N / ff::kFullLevel;

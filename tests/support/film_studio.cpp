@@ -26,7 +26,7 @@ SheetPath growing(const Matrix2d& generator) {
   return [=](double t) {
     Matrix2d term = Matrix2d::Identity();
     Matrix2d sum = term;
-    for (int k = 1; k <= 20; ++k) {  // 1/20! is below what a double keeps
+    for (int k = 1; k <= 20; ++k) {  // 1/20! is below the precision of a double
       term = term * generator * (t / k);
       sum += term;
     }
@@ -85,7 +85,7 @@ std::shared_ptr<const SplineSheet> FilmStudio::plain() const {
 std::shared_ptr<const SplineSheet> FilmStudio::sheet(const std::string& name, double frames_wide) {
   std::shared_ptr<const SplineSheet>& found = sheets_[name];
   if (!found) {
-    // Of the name, so that a film looks the same whichever others are made.
+    // The seed depends on the name, so that a film is the same whichever others are made.
     uint32_t seed = seed_;
     for (const char c : name) seed = 31 * seed + static_cast<uint32_t>(c);
     found = std::make_shared<SplineSheet>(

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// Tells the thread sanitizer how GLib's locks and reference counts order the work of threads. GLib
-/// is not built with the sanitizer and makes its locks of futexes, so that everything that they
-/// protect would look like a race. A program that is linked with this file, and GStreamer's
-/// libraries in it, call these functions in place of GLib's.
+/// is not built with the sanitizer and makes its locks of futexes, so everything that they protect
+/// would look like a race. A program that is linked with this file, and GStreamer's libraries in
+/// it, call these functions instead of GLib's.
 #include <dlfcn.h>
 
 #include <glib.h>
 
 extern "C" {
-// Of libtsan: what a thread did before it released `at` comes before what another does after it
-// acquires it.
+// A function of libtsan: the work of a thread before it releases `at` comes before that of another
+// thread after it acquires `at`.
 void __tsan_acquire(void* at);
 void __tsan_release(void* at);
 }
@@ -61,7 +61,7 @@ gboolean g_cond_wait_until(GCond* cond, GMutex* mutex, gint64 end_time) {
   return signalled;
 }
 
-// The last one who gives up a reference frees what all others have written.
+// The thread that drops the last reference frees what all others have written.
 void(g_object_unref)(gpointer object) {
   static auto* const in_glib = next<void(void*)>("g_object_unref");
   __tsan_release(object);

@@ -22,7 +22,7 @@ void unmap(gpointer user) {
   delete mapping;
 }
 
-/// `size` bytes of noise next to a page that nobody may touch.
+/// `size` bytes of noise next to a page without access.
 GstMemory* guarded_memory(size_t size, bool guard_in_front, RandomSource& random) {
   const auto page = static_cast<size_t>(sysconf(_SC_PAGESIZE));
   const size_t inner = (size + page - 1) / page * page;
@@ -37,7 +37,7 @@ GstMemory* guarded_memory(size_t size, bool guard_in_front, RandomSource& random
                                 new Mapping{begin, whole}, unmap);
 }
 
-/// Of a line of a plane, without what follows it.
+/// The bytes of a line of a plane, without padding.
 int line_bytes(const GstVideoInfo& info, guint plane) {
   for (guint c = 0; c < GST_VIDEO_INFO_N_COMPONENTS(&info); ++c) {
     if (static_cast<guint>(GST_VIDEO_INFO_COMP_PLANE(&info, c)) == plane)
@@ -63,7 +63,7 @@ size_t plane_bytes(const GstVideoInfo& info, const FrameLayout& layout, guint pl
 void paint(const GstVideoInfo& info, const GreyPicture& picture, gint stride, guint8* first_line,
            RandomSource& random) {
   const int pixel = GST_VIDEO_INFO_COMP_PSTRIDE(&info, 0);
-  // Packed colours: red, green and blue are components of plane 0, what else there is stays noise.
+  // In packed colours, red, green and blue are components of plane 0; the others stay noise.
   for (guint c = 0; c < GST_VIDEO_INFO_N_COMPONENTS(&info); ++c) {
     const bool alpha = GST_VIDEO_INFO_HAS_ALPHA(&info) && c == 3;
     if (GST_VIDEO_INFO_COMP_PLANE(&info, c) != 0 || alpha) continue;

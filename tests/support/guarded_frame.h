@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames whose memory ends exactly where the picture ends.
 #pragma once
 
 #include <cstdint>
@@ -22,22 +21,21 @@ struct GreyPicture {
   }
 };
 
-/// Where the planes of a frame are.
 struct FrameLayout {
   guint planes = 0;
   gint stride[GST_VIDEO_MAX_PLANES] = {};
-  gsize before[GST_VIDEO_MAX_PLANES] = {};  ///< bytes in front of the plane
-  bool one_memory = true;                   ///< for all planes; else one each
-  bool guard_in_front = false;              ///< the forbidden page is there, and not behind
+  gsize before[GST_VIDEO_MAX_PLANES] = {};  ///< in front of the plane
+  bool one_memory = true;                   ///< for all planes; otherwise one each
+  bool guard_in_front = false;  ///< whether the page without access is in front, not behind
 };
 
 /// A random layout that is valid for such frames.
 FrameLayout random_layout(const GstVideoInfo& info, RandomSource& random);
 
-/// A buffer with a GstVideoMeta that shows `picture`, which is as large as `info` says: in luma, or
-/// as grey. Chroma, alpha, the bits of luma below the eight highest and what is between the lines
-/// are noise. An access to the page behind the last byte of each memory (or in front of the first
-/// one) ends the program.
+/// A buffer with a GstVideoMeta that shows `picture`, which has the size of `info`, in luma or as
+/// grey. Chroma, alpha, the bits of luma below the eight highest and the padding are noise. An
+/// access to the page behind the last byte of each memory (or in front of the first one) ends the
+/// program.
 GstBuffer* make_guarded_frame(const GstVideoInfo& info, const GreyPicture& picture,
                               const FrameLayout& layout, RandomSource& random);
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Haply's Inverse Service on a port of this computer: greets, and answers each message with one.
 #pragma once
 
 #include <array>
@@ -20,11 +19,12 @@
 
 namespace spidar::test {
 
-/// Keeps a force until another one arrives, also when its sender has gone: the real service lets go
-/// by itself, but after a time that is not published.
+/// Emulates Haply's Inverse Service on a port of this computer: greets, and answers each message
+/// with one. Keeps a force until another one arrives, also when its sender is gone: the real
+/// service releases the grip after a time that is not published.
 class InverseService {
  public:
-  /// Port 0: any.
+  /// Port 0 means any port.
   explicit InverseService(int port = 0) {
     lws_set_log_level(0, nullptr);
     lws_context_creation_info about{};
@@ -39,7 +39,7 @@ class InverseService {
       while (!stop_) lws_service(context_, 0);
     });
   }
-  /// Ends like a service that is killed: connections are reset.
+  /// Ends like a killed service: connections are reset.
   ~InverseService() {
     stop_ = true;
     lws_cancel_service(context_);
@@ -50,7 +50,7 @@ class InverseService {
   InverseService& operator=(const InverseService&) = delete;
 
   int port() const { return port_; }
-  /// For make_grip().
+  /// The name for make_grip().
   std::string spec(const std::string& id) const {
     return "inverse3:" + id + ",port=" + std::to_string(port_);
   }
@@ -75,37 +75,37 @@ class InverseService {
     return !force_N_[0].isZero(0);
   }
 
-  /// Messages in which `key` occurs get no answer.
+  /// Does not answer messages that contain `key`.
   void ignore(const std::string& key) {
     const std::lock_guard lock(mutex_);
     ignored_ = key;
   }
 
-  /// Sends this number of states that nobody has asked for.
+  /// Sends this number of states without a request.
   void burst(int number) {
     unasked_ = number;
     lws_cancel_service(context_);
   }
 
-  /// Sends a state that nobody asked for, and with it a frame that RFC 6455 forbids.
+  /// Sends a state without a request, and with it a frame that RFC 6455 forbids.
   void break_protocol() {
     breaks_ = true;
     lws_cancel_service(context_);
   }
 
-  std::string first_ = "049D";      ///< whose force is the first one
-  std::atomic<bool> mute{false};    ///< takes messages, and answers none
-  std::atomic<int> held{0};         ///< number of messages without an answer that it did not answer
-  std::atomic<bool> broken{false};  ///< answers no JSON
+  std::string first_ = "049D";      ///< the device of the first force
+  std::atomic<bool> mute{false};    ///< accepts messages, but does not answer
+  std::atomic<int> held{0};         ///< unanswered messages that it did not answer
+  std::atomic<bool> broken{false};  ///< answers with invalid JSON
   std::atomic<int> answers{1};      ///< to each message
-  std::atomic<int> states{0};       ///< that it has made so far; each has its number
+  std::atomic<int> states{0};       ///< states made so far; each has its number
   std::atomic<int> sent{0};
   std::atomic<int> clients{0};  ///< connections so far
   std::atomic<int> messages{0};
   std::atomic<int64_t> let_go_ns{0};  ///< when the first force became zero
 
  private:
-  /// What a session keeps is the number of answers that are due.
+  /// A session stores the number of due answers.
   static int handle(lws* socket, lws_callback_reasons reason, void* session, void* in,
                     size_t length) {
     int* due = static_cast<int*>(session);
@@ -181,13 +181,13 @@ class InverseService {
     if (due > 0) lws_callback_on_writable(socket);
   }
 
-  /// All frames at once, so that they arrive together.
+  /// Writes all frames at once, so that they arrive together.
   void write_unasked() {
     const bool breaks = breaks_.exchange(false);
     std::string frames;
     for (int left = unasked_.exchange(0) + (breaks ? 1 : 0); left > 0; --left) {
       const std::string state = text();
-      frames += "\x81\x7E";  // the last of a text, whose length follows in two bytes
+      frames += "\x81\x7E";  // the last frame of a text, whose length follows in two bytes
       frames += {static_cast<char>(state.size() >> 8), static_cast<char>(state.size() & 0xFF)};
       frames += state;
     }

@@ -2,8 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 
 // For a program with the address sanitizer: no library is unloaded. LeakSanitizer names a leak by
-// its library, and the graphics driver, whose leaks are not ours (tests/leaks.supp), would have no
-// name any more when the program ends.
+// its library, and the graphics driver, whose leaks are not ours (tests/leaks.supp), would
+// otherwise have no name when the program ends.
 extern "C" int dlclose(void*) {
   return 0;
 }

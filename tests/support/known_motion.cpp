@@ -9,7 +9,7 @@
 namespace spidar::test {
 namespace {
 
-/// Displacement between two frames of what is at `at_px` in the first one.
+/// The displacement between two frames of the position `at_px` in the first one.
 Eigen::Vector2d moved_px(const SheetPath& pose, int frame, const Eigen::Vector2d& at_px) {
   return pose(frame) * (pose(frame - 1).inverse() * at_px) - at_px;
 }
@@ -72,7 +72,7 @@ void Film::add_object(double time, const FilmObject& object) {
     float* out = sharp_.data() + static_cast<size_t>(y) * static_cast<size_t>(width());
     for (int x = left; x <= right; ++x) {
       const Eigen::Vector2d on_object = start + (x - left) * step;
-      // Fraction of the pixel that it covers, its edge taken as straight.
+      // The fraction of the pixel that the object covers, with its edge taken as straight.
       const auto cover =
           static_cast<float>(std::clamp(inside_px(object, on_object) * scale + 0.5, 0.0, 1.0));
       out[x] += cover * (row[static_cast<size_t>(x - left)] - out[x]);
@@ -91,7 +91,7 @@ void Film::add_exposure(double time, const FilmBackground& behind, float weight)
   for (size_t k = 0; k < sharp_.size(); ++k) exposed_[k] += weight * sharp_[k];
 }
 
-/// Gaussian, the picture's edge repeated.
+/// Applies a Gaussian, with the picture's edge repeated.
 void Film::blur() {
   const int reach = static_cast<int>(std::ceil(3 * blur_px));
   std::vector<float> kernel;
@@ -125,7 +125,7 @@ void Film::blur() {
   }
 }
 
-/// Light, noise, and grey levels that are whole numbers.
+/// Adds light and noise, and rounds grey levels.
 void Film::develop(int frame) {
   const Light lit = light ? light(frame) : Light();
   std::mt19937 random(noise_seed + static_cast<uint32_t>(frame));
@@ -137,7 +137,7 @@ void Film::develop(int frame) {
   });
 }
 
-/// Steps of 2 px, the width of a control value, of whatever moves furthest while the shutter is
+/// The fastest part moves by steps of 2 px, the width of a control value, while the shutter is
 /// open.
 int Film::exposures_at(int frame) const {
   constexpr double kStep_px = 2;

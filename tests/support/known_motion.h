@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film of known motion: objects that move in front of a background.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +15,7 @@
 
 namespace spidar::test {
 
-/// Position of something at a time, in frames: maps its own pixels to those of the picture, both
+/// A position over time, in frames: maps the sheet's own pixels to those of the picture, both
 /// relative to the centre of the frame, x right, y down.
 using SheetPath = std::function<Eigen::Affine2d(double frame)>;
 
@@ -34,7 +33,6 @@ struct FilmBackground {
   SheetPath pose;
 };
 
-/// Grey levels become gain · grey + offset.
 struct Light {
   double gain = 1;
   double offset = 0;
@@ -46,10 +44,10 @@ class Film {
 
   FilmBackground background;
   std::vector<FilmObject> objects;  ///< the last ones are in front
-  /// Frame from which on another scene is shown; < 0: none.
+  /// The first frame of another scene; < 0: none.
   int cut_at = -1;
   FilmBackground after_cut;
-  double shutter = 0;  ///< fraction of the time between frames in which a frame is exposed
+  double shutter = 0;  ///< of the time between frames
   double blur_px = 0;  ///< σ of a Gaussian
   double noise = 0;    ///< σ, grey levels
   uint32_t noise_seed = 1;
@@ -62,12 +60,12 @@ class Film {
   /// Valid until the next call.
   ImageView draw(int frame);
 
-  /// The position in this frame of what was at `from_px` (pixels of the previous frame).
+  /// The position in this frame of `from_px` in the previous frame.
   Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
-  /// The same for an object relative to the background.
+  /// The displacement of an object relative to the background.
   Eigen::Vector2d object_displacement_px(int frame, const FilmObject& object,
                                          const Eigen::Vector2d& from_px) const;
-  /// The object shows at least half of its area in this frame and the two before.
+  /// Whether the object shows at least half of its area in this frame and the two before.
   bool is_in_view(int frame, const FilmObject& object) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The times at which the haptic thread really ticks on a busy machine.
+/// The true times of the haptic thread's ticks on a busy machine.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace spidar::test {
 
-/// By how many microseconds each tick was late in a thread without real-time priority, of 0.06 ms
-/// a tick, while compilers ran on both processors of a machine.
+/// How many microseconds each tick was late in a thread without real-time priority, with 0.06 ms a
+/// tick, while compilers ran on both processors of a machine.
 constexpr std::array<int, 240> kRecorded_us{
     92,   88,   97,   100,  107,  86,  98,  103, 96,    97,   91,   100, 98,  4381,  93,   108,
     115,  100,  81,   106,  83,   110, 118, 112, 545,   91,   100,  102, 108, 20384, 3384, 3362,
@@ -33,13 +33,13 @@ constexpr std::array<int, 240> kRecorded_us{
     77,   75,   76,   75,   77,   77,  78,  87,  95,    93,   90,   106, 90,  76,    75,   80,
 };
 
-/// Ticks of a thread that keeps its deadlines, is late by up to a tick, stands still for up to
-/// 60 ms, or is as late as was recorded, for stretches of kStretch ticks. A tick that is late is
-/// followed by the next deadline of the grid, which may be hardly later.
+/// Ticks of a thread that keeps its deadlines, is late by up to a tick, stands still for up to 60
+/// ms, or is as late as was recorded, for stretches of kStretch ticks. A late tick is followed by
+/// the next deadline of the grid, which may come soon.
 class LateTicks {
  public:
   static constexpr int kStretch = 200;
-  /// What a tick itself takes.
+  /// The duration of a tick.
   static constexpr int64_t kCycle_ns = 60'000;
 
   enum Most { kATick, kStalls };
@@ -48,7 +48,6 @@ class LateTicks {
   LateTicks(uint64_t seed, int64_t from_ns, Most most = kStalls)
       : random_(seed), kinds_(most == kStalls ? 4 : 2), deadline_ns_(from_ns) {}
 
-  /// Moves on to the next tick.
   void advance() {
     if (began_) deadline_ns_ = next_deadline_ns(deadline_ns_, now_ns_ + kCycle_ns);
     began_ = true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip that a hand holds until it lets go.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +16,8 @@
 
 namespace spidar::test {
 
-/// A string device with the steps of its encoders and no others.
+/// A string device with a grip that a hand holds until it releases it. Its only steps are those of
+/// the encoders.
 class LetGoDevice final : public StringDevice {
  public:
   /// The pose of the hand at a time in seconds.
@@ -31,13 +31,14 @@ class LetGoDevice final : public StringDevice {
 
   void let_go() { is_held_ = false; }
   void move_hand(Hand hand) { hand_ = std::move(hand); }
-  /// When the next exchange is, on the clock of the loop. Without, it is 1 ms after the last one.
+  /// Sets when the next exchange is, on the clock of the loop. By default, it is 1 ms after the
+  /// last.
   void exchange_at(int64_t at_ns) { at_ns_ = at_ns; }
-  /// From now on, this string pulls at nothing; its counter stands still, as that of a drum whose
-  /// motor pulls in what is left of it soon does.
+  /// From now on, this string does not pull; its counter stands still, like that of a drum whose
+  /// motor soon winds up the rest.
   void cut(int string) { cut_[static_cast<size_t>(string)] = true; }
   const GripDynamics::State& state() const { return state_; }
-  /// That the strings exert on the grip.
+  /// The wrench of the strings on the grip.
   Wrench string_wrench() const { return held_.string_wrench(state_); }
   double string_force_N() const { return string_wrench().force_N.norm(); }
   double speed_m_s() const { return state_.velocity_m_s.norm(); }

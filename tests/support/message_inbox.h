@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// All messages of a pipeline, in their order.
 #pragma once
 
 #include <condition_variable>
@@ -11,17 +10,17 @@
 
 namespace spidar::test {
 
-/// Takes messages from a bus in the threads that post them. The bus itself may lose one: its queue
-/// (GstAtomicQueue of GStreamer 1.22) begins with 32 positions, and when two threads post while it
-/// grows and a third one reads, a reader may leave the old positions for the new ones before a
-/// thread that has been interrupted has written its message to the old ones. A message is here
-/// before the bus emits its "sync-message" signal.
+/// All messages of a pipeline in their order, taken from a bus in the threads that post them. The
+/// bus itself may lose a message: its queue (GstAtomicQueue of GStreamer 1.22) begins with 32
+/// positions, and when two threads post while it grows and a third one reads, a reader may leave
+/// the old positions for the new ones before an interrupted thread has written its message to the
+/// old ones. A message is here before the bus emits its "sync-message" signal.
 class MessageInbox {
  public:
   explicit MessageInbox(GstElement* pipeline) : bus_(gst_element_get_bus(pipeline)) {
     gst_bus_set_sync_handler(bus_, keep, this, nullptr);
   }
-  /// The pipeline is in NULL.
+  /// The pipeline must be in NULL.
   ~MessageInbox() {
     gst_bus_set_sync_handler(bus_, nullptr, nullptr, nullptr);
     gst_object_unref(bus_);
@@ -30,12 +29,11 @@ class MessageInbox {
   MessageInbox(const MessageInbox&) = delete;
   MessageInbox& operator=(const MessageInbox&) = delete;
 
-  /// The next message, which is the caller's; null when there is none.
+  /// Returns the next message, which belongs to the caller; null when there is none.
   GstMessage* pop() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return take_first();
   }
-  /// Waits for it.
   GstMessage* await() {
     std::unique_lock<std::mutex> lock(mutex_);
     posted_.wait(lock, [this] { return !messages_.empty(); });
@@ -48,7 +46,7 @@ class MessageInbox {
     const std::lock_guard<std::mutex> lock(inbox->mutex_);
     inbox->messages_.push_back(gst_message_ref(message));
     inbox->posted_.notify_all();
-    return GST_BUS_PASS;  // what is dropped is not signalled to the elements that look at it
+    return GST_BUS_PASS;  // the bus does not signal dropped messages to the elements that need them
   }
 
   GstMessage* take_first() {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device that is wired wrongly.
 #pragma once
 
 #include <array>
@@ -14,9 +13,9 @@
 
 namespace spidar::test {
 
-/// `faults` are separated by semicolons; channels count from zero: `swap-motors:I,J`,
-/// `swap-encoders:I,J`, `swap-strings:I,J` (both), `reverse-motor:I`, `reverse-encoder:I`,
-/// `cut-motor:I`, `cut-encoder:I`.
+/// A wrongly wired device. `faults` are separated by semicolons; channels count from zero:
+/// `swap-motors:I,J`, `swap-encoders:I,J`, `swap-strings:I,J` (both), `reverse-motor:I`,
+/// `reverse-encoder:I`, `cut-motor:I`, `cut-encoder:I`.
 class MiswiredDevice final : public StringDevice {
  public:
   MiswiredDevice(std::unique_ptr<StringDevice> device, const std::string& faults)
@@ -42,9 +41,9 @@ class MiswiredDevice final : public StringDevice {
   void close() noexcept override { device_->close(); }
 
  private:
-  /// What is connected to a channel of the board.
+  /// The connections of a channel of the board.
   struct Channel {
-    size_t motor = 0, encoder = 0;         // the strings whose they are
+    size_t motor = 0, encoder = 0;         // strings
     int motor_sign = 1, encoder_sign = 1;  // −1: wires reversed; 0: cut
   };
 

@@ -20,7 +20,7 @@ using Eigen::Rotation2Dd;
 using Eigen::Translation2d;
 using Eigen::Vector2d;
 
-/// σ of what a good camera adds, grey levels.
+/// σ of a good camera's noise, grey levels.
 constexpr double kSensorNoise = 1.5;
 constexpr double kDegree = M_PI / 180;
 
@@ -98,7 +98,7 @@ Film noise_only(FilmStudio& s) {
   return film;
 }
 
-/// One slanted edge that moves: how far along itself nobody can see.
+/// A single slanted edge that moves: nobody can see how far along itself.
 Film single_edge(FilmStudio& s) {
   Film film = s.still_film();
   const double u = s.unit();
@@ -123,7 +123,7 @@ Film cut(FilmStudio& s) {
 
 using Build = std::function<Film(FilmStudio&)>;
 
-/// Sheets of the size and seed that were asked for last are kept.
+/// The sheets of the last requested size and seed are kept.
 MotionCase make(std::string name, CaseGroup group, Build build, bool coded = false) {
   return {std::move(name), group, coded, [group, build](int width, int height, uint32_t seed) {
             static std::tuple<int, int, uint32_t> key;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films for measuring trackers, from easy to hard.
 #pragma once
 
 #include <cstdint>
@@ -14,16 +13,17 @@
 namespace spidar::test {
 
 enum class CaseGroup {
-  kUsual,   ///< averaged over
-  kHard,    ///< contains an object or a camera motion to be found, evaluated separately
+  kUsual,   ///< count in the mean
+  kHard,    ///< an object or a camera motion that is hard to find, evaluated separately
   kSilent,  ///< no motion may be felt
 };
 
-/// Lengths below are at a width of 640 px; a wider film shows the same with more detail.
+/// Films for measuring trackers, from easy to hard. Lengths below are at a width of 640 px; a wider
+/// film shows the same with more detail.
 struct MotionCase {
   std::string name;
   CaseGroup group;
-  bool coded;  ///< to be passed through a video codec
+  bool coded;  ///< whether it passes a video codec
   std::function<Film(int width, int height, uint32_t seed)> film;
 };
 

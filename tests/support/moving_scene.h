@@ -17,7 +17,7 @@
 
 namespace spidar::test {
 
-/// Of something that is drawn, in pixels from the centre of the frame (x right, y down).
+/// The placement of a drawn thing, in pixels from the centre of the frame (x right, y down).
 struct Placement {
   Eigen::Vector2d centre_px{0, 0};
   double scale = 1;
@@ -26,7 +26,7 @@ struct Placement {
   bool operator==(const Placement& other) const {
     return centre_px == other.centre_px && scale == other.scale && angle_rad == other.angle_rad;
   }
-  /// Where a position of the frame is on the thing itself.
+  /// Maps a position of the frame to the thing itself.
   Eigen::Vector2d on_thing(const Eigen::Vector2d& frame_px) const {
     return Eigen::Rotation2Dd(-angle_rad) * (frame_px - centre_px) / scale;
   }
@@ -55,13 +55,13 @@ class MovingScene {
   int width() const { return picture_.width; }
   int height() const { return picture_.height; }
 
-  /// One placement for each disc; the last ones are in front. Valid until the next call.
+  /// Takes one placement for each disc; the last ones are in front. Valid until the next call.
   ImageView draw(const Placement& background, const std::vector<Placement>& discs) {
     const Eigen::Vector2d middle((width() - 1) / 2.0, (height() - 1) / 2.0);
     if (!plain_) draw_behind(background, middle);
     picture_.fill([&](double x, double y) {
       const Eigen::Vector2d at = Eigen::Vector2d(x, y) - middle;
-      double left = 1;  // fraction of the pixel that nothing in front covers
+      double left = 1;  // the fraction of the pixel that nothing in front covers
       double sum = 0;
       for (size_t i = discs.size(); i-- > 0 && left > 0;) {
         const Eigen::Vector2d on_disc = discs[i].on_thing(at);
@@ -79,7 +79,7 @@ class MovingScene {
   }
 
  private:
-  /// Once for each placement: it takes longer than the rest.
+  /// Drawn once for each placement, because it takes longest.
   void draw_behind(const Placement& placement, const Eigen::Vector2d& middle_px) {
     if (!behind_.empty() && placement == behind_at_) return;
     behind_at_ = placement;
@@ -92,7 +92,7 @@ class MovingScene {
     }
   }
 
-  /// Structures of a dozen pixels, as large as the tracker's windows.
+  /// Structures of a dozen pixels, the size of the tracker's windows.
   static constexpr double kCell_px = 8;
   Picture picture_;
   uint32_t seed_;

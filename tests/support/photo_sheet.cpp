@@ -67,7 +67,7 @@ SplineSheet octaves(uint32_t seed, const SplineSheet& size) {
 struct Leaf {
   Eigen::Vector2d middle;
   Eigen::Matrix2d to_unit;  ///< its own axes, in which it reaches from −1 to 1
-  double reach;             ///< no part of it is further from the middle
+  double reach;             ///< bounds the distance of its parts from the middle
   bool round;
   float grey;
   float grain;  ///< grey levels of an octave's noise
@@ -79,7 +79,7 @@ struct Leaf {
 };
 
 Leaf fall(Uniform& uniform, const SplineSheet& sheet) {
-  // The smallest ones are 6 px across: a lens and a sensor show less contrast in what is smaller.
+  // The smallest leaves are 6 px across: a lens and a sensor show less contrast in smaller things.
   const double smallest = 1.5;
   const double largest = std::min(sheet.columns(), sheet.rows()) / 6.0;
   Leaf leaf{};
@@ -99,7 +99,7 @@ Leaf fall(Uniform& uniform, const SplineSheet& sheet) {
   return leaf;
 }
 
-/// Number of control values that it covers.
+/// The number of control values that the leaf covers.
 template <typename Cover>
 double lay(const Leaf& leaf, Cover&& cover) {
   double covered = 0;
@@ -115,7 +115,7 @@ double lay(const Leaf& leaf, Cover&& cover) {
   return covered;
 }
 
-/// What a lens does, 1/4 (1 2 1) in each direction: without it the slanted edge of a leaf is a
+/// The blur of a lens, 1/4 (1 2 1) in each direction: without it the slanted edge of a leaf is a
 /// staircase of control values.
 SplineSheet softened(const SplineSheet& sheet) {
   SplineSheet soft = sheet;
@@ -137,7 +137,7 @@ SplineSheet softened(const SplineSheet& sheet) {
 }  // namespace
 
 SplineSheet photo_sheet(uint32_t seed, double width_px, double height_px) {
-  constexpr double kLayers = 5;  // leaves on top of each other: e⁻⁵ of the ground is left
+  constexpr double kLayers = 5;  // leaves on top of each other: e⁻⁵ of the ground remains
   SplineSheet sheet(width_px, height_px);
   const SplineSheet noise = octaves(seed, sheet);
   Uniform uniform(seed);
@@ -162,7 +162,7 @@ SplineSheet edge_sheet(double width_px, double height_px, const Eigen::Vector2d&
                        const Eigen::Vector2d& normal) {
   SplineSheet sheet(width_px, height_px);
   sheet.fill([&](double x, double y) {
-    // Soft over a control value, else the edge of a slanted line is a row of steps: corners.
+    // Without a soft control value, the edge of a slanted line would be a row of steps: corners.
     const double side_px = normal.normalized().dot(Eigen::Vector2d(x, y) - through_px);
     return 128 + 60 * std::clamp(side_px / SplineSheet::kSpacing_px, -1.0, 1.0);
   });

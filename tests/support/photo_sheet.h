@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A substitute for a photograph as the content of a film.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +14,9 @@ namespace spidar::test {
 /// Dead leaves (Lee, Mumford, Huang: Occlusion models for natural images, Int. J. Computer Vision
 /// 41, 2001): ellipses and rectangles whose number goes with radius⁻³, so that every octave covers
 /// the same area, each with a grey level of its own. On most of them lies noise of the same
-/// variance in every octave. Both have amplitude spectra that go with 1/f as those of photographs
-/// do.
+/// variance in every octave. Both have amplitude spectra of 1/f, as photographs have.
 SplineSheet photo_sheet(uint32_t seed, double width_px, double height_px);
 
-/// One grey level.
 SplineSheet plain_sheet(double grey);
 
 /// Dark on one side of a line through `through_px`, bright on the side to which `normal` points.

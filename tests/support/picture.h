@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grey picture that owns its memory.
 #pragma once
 
 #include <cmath>
@@ -11,8 +10,8 @@
 
 namespace spidar::test {
 
-/// `width` × `height` pixels in rows `stride` bytes apart. The bytes between rows are not 0, so
-/// that reading them is noticed.
+/// A grey picture that owns its memory: `width` × `height` pixels in rows `stride` bytes apart. The
+/// bytes between rows are not 0, so that a test notices when they are read.
 struct Picture {
   Picture(int width_px, int height_px, int padding = 0)
       : width(width_px),

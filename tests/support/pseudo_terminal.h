@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// UART boards behind a pseudo-terminal: a serial line that needs no hardware.
 #pragma once
 
 #include <array>
@@ -20,14 +19,15 @@
 
 namespace spidar::test {
 
-/// Answers from a thread of its own until it is destroyed, which hangs up the line.
+/// UART boards behind a pseudo-terminal, a serial line without hardware. Answers from a thread of
+/// its own until it is destroyed, which hangs up the line.
 class UartLine {
  public:
   explicit UartLine(emulated::Uart boards) : boards_(std::move(boards)) {
     if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0)
       throw std::runtime_error("no pseudo-terminal");
     path_ = ptsname(master_);
-    // Open for as long as the boards are there, as a real line is.
+    // The line stays open for as long as the boards are there, as a real line does.
     slave_ = open(path_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
     termios settings{};
     tcgetattr(slave_, &settings);
@@ -43,7 +43,7 @@ class UartLine {
   }
 
   const std::string& path() const { return path_; }
-  /// Other boards, behind the same adapter.
+  /// Connects other boards behind the same adapter.
   void connect(emulated::Uart boards) {
     stop_ = true;
     thread_.join();
@@ -51,7 +51,7 @@ class UartLine {
     boards_.emplace(std::move(boards));
     thread_ = std::thread([this] { run(); });
   }
-  /// The boards neither receive nor answer.
+  /// Sets whether the boards neither receive nor answer.
   void set_silent(bool silent) { silent_ = silent; }
 
  private:

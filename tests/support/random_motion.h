@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Random directions, poses and numbers, repeatable by their seed.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +17,9 @@ class RandomMotion {
     return std::uniform_real_distribution<double>(low, high)(random_);
   }
   bool chance(double p) { return uniform(0, 1) < p; }
-  /// One of 0 … below − 1.
+  /// Returns one of 0 … below − 1.
   int some(int below) { return std::uniform_int_distribution<int>(0, below - 1)(random_); }
-  /// A unit vector, uniform over the sphere.
+  /// Returns a unit vector, uniform over the sphere.
   Eigen::Vector3d direction() {
     std::normal_distribution<double> normal;
     return Eigen::Vector3d(normal(random_), normal(random_), normal(random_)).normalized();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Random numbers from a seed, for tests with random input.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +12,8 @@
 
 namespace spidar::test {
 
-/// The same numbers for the same seed with every standard library, because none of its
-/// distributions is used.
+/// Random numbers for tests, the same for the same seed with every standard library, because they
+/// use none of its distributions.
 class RandomSource {
  public:
   explicit RandomSource(uint64_t seed) : engine_(seed) {}

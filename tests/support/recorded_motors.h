@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Motors and encoders of an emulated board, which a test reads and moves.
 #pragma once
 
 #include <array>
@@ -11,13 +10,14 @@
 
 namespace spidar::test {
 
-/// Outputs to the motors, and counts of the encoders; must outlive the board. Atomics: any thread.
+/// Outputs to the motors of an emulated board, and counts of its encoders, which a test reads and
+/// moves; must outlive the board. Atomics: any thread.
 struct MotorBench {
   std::array<std::atomic<int>, kMaxStrings> digit{};
   std::array<std::atomic<int32_t>, kMaxStrings> count{};
   std::atomic<uint16_t> inputs{0};
   std::atomic<int> updates{0};
-  /// All updates of the first motor. Read it while no board runs.
+  /// All updates of the first motor. Read this while no board runs.
   std::vector<int> history;
 
   bool all_zero() const {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A film plays on the simulated device while nobody holds its grip.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 
 namespace spidar::test {
 
-/// A grip of `mass_kg` without a hand: there is only the friction of the strings.
+/// A grip of `mass_kg` without a hand, with only the friction of the strings.
 inline GripModel released(const Profile& profile, double mass_kg) {
   GripModel model = grip_model_of(profile);
   // The inertia of a sphere grows with its mass.
@@ -30,7 +29,8 @@ inline GripModel released(const Profile& profile, double mass_kg) {
 /// The wrench of a film at a time in seconds.
 using Film = std::function<Wrench(double)>;
 
-/// A loop that plays a film on a simulated device, and the device's own truth.
+/// A loop that plays a film on a simulated device while nobody holds its grip, and the true state
+/// of the grip.
 class PlayedGrip {
  public:
   PlayedGrip(const Profile& of, const GripModel& model, Film film, const SafetyLimits& limits = {})
@@ -67,7 +67,7 @@ class PlayedGrip {
     for (int axis = 0; axis < 3; ++axis) {
       const bool was_inside = std::abs(before.pose.position_m[axis]) < frame_m_[axis];
       if (!was_inside || std::abs(felt.pose.position_m[axis]) < frame_m_[axis]) continue;
-      // It has met the frame within this millisecond.
+      // The grip has hit the frame within this millisecond.
       const double speed_m_s = before.velocity_m_s[axis];
       hardest_J = std::max(hardest_J, 0.5 * mass_kg_ * speed_m_s * speed_m_s);
     }
@@ -79,9 +79,9 @@ class PlayedGrip {
   SimulatedDevice device;
   std::unique_ptr<HapticLoop> loop;
   int64_t now_ns = 0;
-  // The largest values so far, of the grip as it really is.
+  // The largest true values of the grip so far.
   double fastest_m_s = 0;
-  double hardest_J = 0;  ///< that a blow against the frame took
+  double hardest_J = 0;  ///< of a blow against the frame
   double strongest_N = 0;
 
  private:

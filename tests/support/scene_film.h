@@ -24,7 +24,7 @@ constexpr int kSceneHeight = 360;
 constexpr int64_t kSceneFrame_ns = 40'000'000;
 constexpr double kSceneFrame_s = 0.04;
 
-/// Frame n with sensor noise of 1.5 grey levels, as the films of the benchmark have it.
+/// Frame n with sensor noise of 1.5 grey levels, as in the films of the benchmark.
 inline Picture draw(const Scene& scene, int n) {
   Picture picture(kSceneWidth, kSceneHeight);
   std::mt19937 random(static_cast<uint32_t>(n));

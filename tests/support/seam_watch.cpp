@@ -12,7 +12,7 @@ namespace {
 
 /// Tensions become volts and are read back: a quotient and two products.
 constexpr double kRounding_N = 1e-9;
-/// By so much the speed that the brake sees is wrong.
+/// The error of the speed that the brake sees.
 constexpr double kSpeedError_m_s = brake::kSpeedError_m_s;
 /// Of the bounds at rest, for a zero that is wrong.
 constexpr double kZeroMargin = 1.1;
@@ -26,8 +26,8 @@ double SeamWatch::force_N(const Pose& pose, const StringVector& tension_N) const
   return (structure_matrix(real_.geometry, pose) * tension_N).head<3>().norm();
 }
 
-/// The brake lets go of a force at once and pushes against the motion. The power that the strings
-/// give rises by their pace at most, or to zero; and by what a wrong speed lets them push.
+/// The brake ends a force at once and pushes against the motion. The power of the strings rises by
+/// their pace at most, or to zero; and by what a wrong speed lets them push.
 bool SeamWatch::never_pushes(const Tick& tick, double passed_s) const {
   Eigen::Matrix<double, 6, 1> motion;
   motion << tick.felt.velocity_m_s, tick.felt.angular_velocity_rad_s;
@@ -58,7 +58,7 @@ void SeamWatch::see(const Tick& tick, const std::string& where) {
   }
   unanswered_s_ += tick.dt_s;
   if (tick.acknowledged) {
-    // What falls does so in the time that has passed since the last answer.
+    // Falling values fall in the time since the last answer.
     const double passed_s = std::min(unanswered_s_, 2e-3);
     for (int i = 0; i < count; ++i) {
       const double step_N = std::abs(tick.told_N[i] - told_N_[i]);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Runs shell commands and keeps their output.
 #pragma once
 
 #include <cstdio>
@@ -10,11 +9,11 @@
 namespace spidar::test {
 
 struct CommandResult {
-  int status = -1;  ///< exit status; −1 if the shell was killed or could not be started
+  int status = -1;  ///< −1 if the shell was killed or could not be started
   std::string text;
 };
 
-/// `text` is the standard output.
+/// Runs a command; `text` is the standard output.
 inline CommandResult run_shell(const std::string& command) {
   CommandResult outcome;
   FILE* pipe = popen(command.c_str(), "r");
@@ -26,7 +25,7 @@ inline CommandResult run_shell(const std::string& command) {
   return outcome;
 }
 
-/// `text` also has the standard error of the last command.
+/// Runs a command; `text` also has the standard error of the last command.
 inline CommandResult run(const std::string& command) {
   return run_shell(command + " 2>&1");
 }

@@ -46,7 +46,8 @@ float SplineSheet::at(double u, double v) const {
   return sum;
 }
 
-/// The rows first, as all pixels have the same; then the columns, where every second pixel has.
+/// The rows come first, because all pixels share them; then the columns, which every second pixel
+/// shares.
 void SplineSheet::pixel_line(const Eigen::Vector2d& start_px, int count, float* grey) const {
   const double u = start_px.x() / kSpacing_px;
   const Cell y(start_px.y() / kSpacing_px);

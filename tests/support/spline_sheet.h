@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A picture that is defined between its pixels, too, fast enough for films.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +9,8 @@
 
 namespace spidar::test {
 
-/// Grey levels by a cubic B-spline over a grid of control values, which repeats in both directions.
+/// A picture that is also defined between its pixels, fast enough for films: grey levels by a cubic
+/// B-spline over a grid of control values, which repeats in both directions.
 ///
 /// The picture is the spline itself, not an interpolation between samples, so it can be moved by
 /// any fraction of a pixel without error. Drawn at scale 1, its spectrum is that of the control
@@ -27,7 +27,7 @@ class SplineSheet {
   /// Control values; both numbers are powers of two.
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  /// Repeats, i and j may be anything.
+  /// Repeats for any i and j.
   float& control(int i, int j) { return values_[index(i, j)]; }
   float control(int i, int j) const { return values_[index(i, j)]; }
 

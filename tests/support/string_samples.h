@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device and random poses, for the tests of strings.
 #pragma once
 
 #include <random>
@@ -42,7 +41,8 @@ inline Eigen::Vector3d random_direction(Random& random) {
   return Eigen::Vector3d(normal(random), normal(random), normal(random)).normalized();
 }
 
-/// Position in a cube of ± `reach_m` about the centre, turned by up to `angle_rad` about any axis.
+/// A position in a cube of ± `reach_m` about the centre, turned by up to `angle_rad` about any
+/// axis.
 inline Pose random_pose(Random& random, double reach_m, double angle_rad) {
   Pose pose;
   pose.position_m = random_vector(random, reach_m);

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A device placed between the loop and another device: makes some encoders dead, and records the
-/// volts for the motors.
 #pragma once
 
 #include <array>
@@ -16,13 +14,14 @@ namespace spidar::test {
 
 class TamperedDevice final : public StringDevice {
  public:
-  /// `inner` must outlive it.
+  /// A device placed between the loop and another device `inner`, which must outlive it: makes some
+  /// encoders dead, and records the volts for the motors.
   explicit TamperedDevice(StringDevice& inner) : StringDevice(inner.name()), inner_(inner) {}
 
   /// From the next exchange on, the counters of these strings (bit i: string i) stand still.
   void stop_encoders(unsigned strings) { stopped_ = strings; }
 
-  /// In the next answer, this bit of the count of a string is the other one.
+  /// Flips this bit of the count of a string in the next answer.
   void flip(size_t string, int bit) {
     flipped_ = string;
     flip_ = 1 << bit;
@@ -30,9 +29,7 @@ class TamperedDevice final : public StringDevice {
 
   bool is_tampered() const { return stopped_ != 0; }
 
-  /// Volts of the last exchange.
   const MotorVolts& volts() const { return volts_; }
-  /// Of the last exchange.
   LinkFault status() const { return status_; }
 
   void open() override {
@@ -42,7 +39,7 @@ class TamperedDevice final : public StringDevice {
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     DeviceReading read;
     status_ = inner_.exchange(volts, read);
-    // After a garbled answer the board has received the volts; one that is gone releases the
+    // After a garbled answer the board has received the volts; a board that is gone releases the
     // motors.
     if (status_ != LinkFault::kTimeout) volts_ = volts;
     if (status_ == LinkFault::kGone) volts_ = {};
@@ -69,7 +66,7 @@ class TamperedDevice final : public StringDevice {
   DeviceReading last_;
 };
 
-/// What the volts are at the strings, N.
+/// The tensions of the volts at the strings, N.
 inline StringVector tensions_N(const MotorVolts& volts, const Profile& profile) {
   StringVector tension_N = StringVector::Zero();
   for (int i = 0; i < profile.geometry.count; ++i) {
@@ -80,7 +77,7 @@ inline StringVector tensions_N(const MotorVolts& volts, const Profile& profile) 
   return tension_N;
 }
 
-/// A profile as it really is when the counters were zeroed with the grip at `pose` instead of the
+/// The true profile when the counters were set to zero with the grip at `pose` instead of the
 /// centre.
 inline Profile zeroed_at(Profile profile, const Pose& pose) {
   const StringVector off_m =

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Simulates a hand that taps a plane.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +15,13 @@ namespace spidar::test {
 /// Holds the grip so loosely that it bounces after a tap.
 constexpr Hand kLooseHand{"loose", 30, 0.5};
 
-/// The hand goes from 20 mm above a plane to `depth_m` below it and out again, at the same speed.
-/// The largest energy that a contact gave out (below 0: absorbed), J; −∞ if the grip never touched.
+/// Simulates a hand that taps a plane: from 20 mm above to `depth_m` below it and out again, at the
+/// same speed. Returns the largest energy that a contact gave out (below 0: absorbed), J; −∞ if the
+/// grip never touched.
 inline double tap_J(const touch::ContactSettings& settings, const Hand& hand, double speed_m_s,
                     double depth_m) {
   constexpr double kAbove_m = 0.02;
-  constexpr int kFaded = 20;  // ticks, ten times the drive's lag
+  constexpr int kFaded = 20;  // in ticks: ten times the drive's lag
   static const touch::HeightField plane = plane_field(0);
   TouchedGrip grip(hand, {0, 0, kAbove_m});
   touch::ContactForce force;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A temporary folder for a test.
 #pragma once
 
 #include <cstdlib>
@@ -11,8 +10,8 @@
 
 namespace spidar::test {
 
-/// Removed with its contents when the object is destroyed. Throws std::runtime_error when it cannot
-/// be created.
+/// A temporary folder, which the destructor removes with its contents. Throws std::runtime_error
+/// when the folder cannot be created.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -13,13 +13,13 @@ enum class TensionCase {
   kReachable,      ///< ±4 cm, 45°, a wrench that tensions within the bounds deliver exactly
   kFrameEdge,      ///< one coordinate 50 … 75 mm off the centre
   kTurned,         ///< rotated by 60 … 80°
-  kBeyondReach,    ///< 10 … 100 times what the strings can do
+  kBeyondReach,    ///< 10 … 100 times the reach of the strings
   kRankDeficient,  ///< singular values, strings or rows of W that nearly vanish or coincide
   kFixedStrings,   ///< t_min = t_max on some strings
   kDegenerate,     ///< zero multipliers, slack strings, no wrench, symmetric poses
   kScaled,         ///< objective, wrench, tensions or the unit of length times 1e±9
   kTinyEpsilon,    ///< ε down to 1e-12
-  kOutsideFrame,   ///< ±30 cm, turned anyhow
+  kOutsideFrame,   ///< ±30 cm, any rotation
   kFewStrings,     ///< 4 … 8 strings, point grips
 };
 constexpr int kTensionCases = 12;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// GoogleTest, Eigen, and what most tests need of the standard library.
+/// GoogleTest, Eigen, and the standard headers of most tests.
 #pragma once
 
 #include <algorithm>

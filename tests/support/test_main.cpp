@@ -16,8 +16,8 @@ std::string name_of(const std::string& path) {
   return path.substr(path.find_last_of('/') + 1);
 }
 
-/// The tests of these files, as --gtest_filter names them. Takes the files that have tests out of
-/// `files`.
+/// Returns the tests of these files, as --gtest_filter names them. Removes the files that have
+/// tests from `files`.
 std::string filter_of(std::set<std::string>& files) {
   std::string filter;
   std::set<std::string> found;

@@ -15,7 +15,7 @@ constexpr double kRest_s = 0.0505;  // 50 ticks, and rounding
 constexpr double kMaxAtRest_N = 3;
 /// No frame is held longer.
 constexpr int64_t kOldest_ns = 100 * 1'000'000;
-/// Before the next frame is due; a tick for the last one of them.
+/// Before the next frame is due; with a tick for the last frame.
 constexpr int64_t kFadeIn_ns = 40 * 1'000'000 + kTick_ns;
 /// A vector is shortened by a product, a quotient and a root.
 constexpr double kRounding = 4 * std::numeric_limits<double>::epsilon();
@@ -25,7 +25,7 @@ bool to_be_felt(const TickRecord& record) {
                             record.found == Found::kHeld);
 }
 
-/// A surface pushes for as long as the grip is in it, however old its frame is.
+/// A surface pushes for as long as the grip is in it, at any age of its frame.
 bool is_pushed(const TickRecord& record) {
   return record.playing && record.contact.force_N.norm() > 0;
 }
@@ -94,7 +94,7 @@ TickRecord TickWatch::tick(HapticLoop& loop, int64_t now_ns) {
 }
 
 void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
-  // Another loop, the same one opened again, or a trace with a gap.
+  // The loop is another one, or was reopened, or the trace has a gap.
   if (record.tick != last_.tick + 1) following_ = false;
   if (!following_) motion_.reset();
   const int64_t step_ns = following_ ? record.monotonic_ns - last_.monotonic_ns : kTick_ns;
@@ -123,7 +123,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
     fail(record, "torque too large");
   }
 
-  // See WrenchLimits. A lost device has nothing to command.
+  // See WrenchLimits. A lost device gets no command.
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
   const bool brakes = record.brakes || last_.brakes;
   if (following_ && !lost && brakes) {
@@ -144,7 +144,7 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
     }
   }
 
-  // A device that does not answer keeps what it was told last.
+  // A device that does not answer keeps its last command.
   if (to_be_felt(record) || is_pushed(record)) {
     stopped_s_ = 0;
   } else if (record.acknowledged) {
@@ -159,11 +159,11 @@ void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
   if (now.stacked().norm() > 0) ++felt_;
 }
 
-/// What the brake does: it takes from the force that is wanted at once, and adds a damper against
-/// the motion. So the power of the force is at most what it was or what is wanted, or zero; and the
-/// force is at most what it was or what is wanted, and the strongest damper's at this speed.
-/// `most_N` is what a force may change by in this tick. The speed that the brake sees is wrong by
-/// kSpeedError_m_s at most.
+/// Checks the brake, which ends the wanted force at once, and adds a damper against the motion. So
+/// the power of the force is at most that before or that of the wanted force, or zero; and the
+/// force is at most the one before or the wanted one, and the strongest damper's at this speed.
+/// `most_N` is the largest change of a force in this tick. The error of the speed that the brake
+/// sees is kSpeedError_m_s at most.
 std::string TickWatch::fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
                                       double most_N) const {
   constexpr double kDamping_N_s_m = brake::kDamping_1_s * kHeaviestGrip_kg;

@@ -9,7 +9,7 @@
 
 namespace spidar::test {
 
-/// Whether the frame continues the one that was published before.
+/// Whether the frame continues the previously published one.
 enum class After { kCut, kFrame };
 
 /// Publishes a frame with the heights z_m(x_m, y_m). Returns false when the mailbox is full.
@@ -33,14 +33,12 @@ bool publish_surface(touch::Mailbox& mailbox, int64_t time_ns, After after, Surf
   return true;
 }
 
-/// The same for a level surface.
 inline bool publish_plane(touch::Mailbox& mailbox, int64_t time_ns, double z_m,
                           After after = After::kCut, const touch::ContactSettings& contact = {}) {
   return publish_surface(
       mailbox, time_ns, after, [z_m](double, double) { return z_m; }, contact);
 }
 
-/// Publishes that there is nothing to touch from `time_ns` on.
 inline bool publish_nothing(touch::Mailbox& mailbox, int64_t time_ns) {
   touch::Surface* const frame = mailbox.begin(mailbox.generation());
   if (frame == nullptr) return false;

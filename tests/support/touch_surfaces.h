@@ -18,7 +18,6 @@ namespace spidar::test {
 constexpr double kPictureWidth_m = 0.06;
 constexpr double kPictureHeight_m = 0.03375;  // square cells
 
-/// `z_m(x_m, y_m)` at every sample.
 template <typename Surface>
 touch::HeightField sampled_field(Surface&& z_m) {
   touch::HeightField field(kPictureWidth_m, kPictureHeight_m);
@@ -43,7 +42,7 @@ inline touch::HeightField sphere_field(double x_m, double y_m, double radius_m, 
   });
 }
 
-/// A picture of discs and stripes of all sizes, as `noise_level` of grey noise lets them be seen.
+/// A picture of discs and stripes of all sizes, with `noise_level` of grey noise.
 inline std::vector<uint8_t> busy_picture(unsigned seed, int width, int height, double noise_level) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(0, 1);
@@ -79,8 +78,8 @@ struct TouchScene {
   touch::HeightField texture;
 };
 
-/// What energy is looked for on. Those of pictures come with their fine detail; the others have a
-/// wave of 2 mm for a texture.
+/// Surfaces for tests of energy. Those of pictures have their fine detail; the others have a
+/// texture of waves of 2 mm.
 inline std::vector<TouchScene> touch_scenes() {
   const double two_pi = 2 * M_PI;
   const touch::HeightField wave = sampled_field([&](double x_m, double y_m) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grip that a hand moves and a commanded force pushes, with the delays of a device.
 #pragma once
 
 #include <algorithm>
@@ -24,9 +23,10 @@ struct Hand {
 constexpr Hand kFirmHand{"firm", 300, 8};
 constexpr Hand kLightHand{"light", 100, 2};
 
-/// A mass with the figures of the simulated SPIDAR-GCC (spidar/devices/sim/grip_model.h, its
-/// profile, SafetyLimits), but without strings. The force commanded in a tick follows from where
-/// the grip was in the exchange before, is held for the tick, and lags behind in the drive.
+/// A grip that a hand moves and a commanded force pushes: a mass with the figures of the simulated
+/// SPIDAR-GCC (spidar/devices/sim/grip_model.h, its profile, SafetyLimits), but without strings.
+/// The force commanded in a tick follows from the position in the exchange before, is held for the
+/// tick, and lags behind in the drive.
 class TouchedGrip {
  public:
   static constexpr double kTick_s = 1e-3;
@@ -40,16 +40,17 @@ class TouchedGrip {
   explicit TouchedGrip(const Hand& hand, const Eigen::Vector3d& at_m = Eigen::Vector3d::Zero())
       : hand_(hand), position_m_(at_m) {}
 
-  /// What the host knows: the position in the last exchange, in steps of the encoder.
+  /// The position in the last exchange, in steps of the encoder, as the host knows it.
   Eigen::Vector3d measured_m() const { return measured_m_; }
   const Eigen::Vector3d& position_m() const { return position_m_; }
   const Eigen::Vector3d& velocity_m_s() const { return velocity_m_s_; }
-  /// Force that really acts on the grip.
+  /// The true force on the grip.
   const Eigen::Vector3d& force_N() const { return force_N_; }
-  /// Work of the grip against that force.
+  /// The work of the grip against that force.
   double given_J() const { return given_J_; }
 
-  /// The exchange of a tick, and the time to the next one. The hand pulls towards `hand_m`.
+  /// Performs the exchange of a tick, and the time to the next one. The hand pulls towards
+  /// `hand_m`.
   void exchange(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& hand_m) {
     measured_m_ = kEncoderStep_m * (position_m_ / kEncoderStep_m).array().round().matrix();
     Eigen::Vector3d change_N = wanted_N - limited_N_;
@@ -63,7 +64,7 @@ class TouchedGrip {
     for (int n = 0; n < kSubsteps; ++n) {
       force_N_ += lag * (command_N - force_N_);
       const Eigen::Vector3d hand_N = hand_.stiffness_N_m * (hand_m - position_m_);
-      // The damper is taken implicitly.
+      // The damper is implicit.
       velocity_m_s_ = (velocity_m_s_ + kStep_s / kMass_kg * (force_N_ + hand_N)) /
                       (1 + kStep_s / kMass_kg * hand_.damping_N_s_m);
       const Eigen::Vector3d way_m = kStep_s * velocity_m_s_;
@@ -82,8 +83,8 @@ class TouchedGrip {
   double given_J_ = 0;
 };
 
-/// Target of a hand that explores at random: six sines on each axis, from 0.15 to 3 Hz, slow ones
-/// with large amplitude.
+/// The target of a hand that explores at random: six sines on each axis, from 0.15 to 3 Hz, slow
+/// ones with large amplitude.
 class RandomHand {
  public:
   explicit RandomHand(unsigned seed) {
@@ -115,12 +116,12 @@ class RandomHand {
   Sine sines_[3][6];
 };
 
-/// Energy that a still surface gave out, by contacts.
+/// The energy that a still surface gave out, by contacts.
 struct ContactEnergy {
   int contacts = 0;
   int generating = 0;             ///< contacts that gave out more than they absorbed
   double worst_J = 0;             ///< given out by one of them, ≥ 0
-  double stiffness_fraction = 1;  ///< that was left at the end, see touch::ShakeWatch
+  double stiffness_fraction = 1;  ///< the rest at the end, see touch::ShakeWatch
 
   void add(double out_J) {
     ++contacts;

@@ -77,7 +77,6 @@ class ShadowDevice final : public StringDevice {
   StringVector tension_N_ = StringVector::Zero();
 };
 
-/// State of the strings at the end of a tick.
 struct Strings {
   StringVector length_m;
   StringVector speed_m_s;  // rate of lengthening
@@ -162,13 +161,14 @@ class Pair {
   }
 
   double stiffness_fraction() const { return loop_->snapshot().last.contact.stiffness_fraction; }
-  /// The grip counts as released in one of the loops, in which the film's force rests, too.
+  /// Whether the grip counts as released in one of the loops, where the film's force then rests,
+  /// too.
   bool apart() const { return loop_->snapshot().last.held != untouched_->snapshot().last.held; }
   bool touching() const {
     const TickRecord last = loop_->snapshot().last;
     return last.called_back ? last.pose.position_m.z() < 0 : last.contact.touching;
   }
-  /// Work that the grip has done against the added tensions.
+  /// The work of the grip against the added tensions.
   double given_J() const { return given_J_; }
 
  private:
@@ -205,8 +205,8 @@ class Pair {
 
 ContactEnergy touch_through_strings(const TouchScene& scene, const StringTouch& touch,
                                     const Hand& hand, long ticks, const HandPath& path_m) {
-  constexpr int kFaded = 20;       // ticks, ten times the drive's lag
-  constexpr long kArrived = 1000;  // ticks until the strings are taut and the hand has arrived
+  constexpr int kFaded = 20;       // in ticks: ten times the drive's lag
+  constexpr long kArrived = 1000;  // in ticks: the strings are taut and the hand has arrived
   Pair pair(scene, touch, hand);
   ContactEnergy result;
   bool in_contact = false, apart = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Films of a ball that goes round, turns and grows, and what is found of it.
+/// Films of a ball that circles, rotates and grows, and what the analysis finds.
 #pragma once
 
 #include <algorithm>
@@ -19,12 +19,12 @@
 
 namespace spidar::test {
 
-/// A film of 640 × 360 px, 8 s at 30 frames a second, with the noise of a sensor. Turn and growth
-/// swing; neither is known before the picture moves.
+/// A film of 640 × 360 px, 8 s at 30 frames a second, with the noise of a sensor. Rotation and
+/// growth swing; neither is known before the picture moves.
 struct TurningBall {
-  bool is_textured = false;  ///< or a beach ball: six flat sectors
+  bool is_textured = false;  ///< otherwise a beach ball: six flat sectors
   double radius_px = 36;
-  double turn_rad_s = 0;  ///< amplitude; the same of growth
+  double turn_rad_s = 0;  ///< amplitude; the same for growth
   double growth_1_s = 0;
   bool in_hand = false;  ///< the camera
 
@@ -54,7 +54,7 @@ struct TurningBall {
             1,
             0.006 * std::sin(5.7 * t_s)};
   }
-  /// Between this frame and the one before, against the background.
+  /// Between this frame and the one before, relative to the background.
   double true_roll_rad_s(int n) const {
     return (ball(n).angle_rad - ball(n - 1).angle_rad - background(n).angle_rad +
             background(n - 1).angle_rad) /
@@ -103,7 +103,7 @@ struct TurningBall {
   }
 };
 
-/// What was found of one axis over a film, beside what is true.
+/// The measured values of one axis over a film, beside the true ones.
 struct FollowedAxis {
   std::vector<double> found, truth;
 
@@ -111,13 +111,13 @@ struct FollowedAxis {
     found.push_back(of_frame);
     truth.push_back(of_truth);
   }
-  /// How often nothing turns into something, or back.
+  /// How often the value changes between zero and others.
   int switches() const {
     int count = 0;
     for (size_t i = 1; i < found.size(); ++i) count += (found[i] == 0) != (found[i - 1] == 0);
     return count;
   }
-  /// In 99 % of the frames, the change since the frame before is off by less.
+  /// In 99 % of the frames, the error of the change since the previous frame is smaller.
   double jump() const {
     std::vector<double> jumps;
     for (size_t i = 1; i < found.size(); ++i) {

@@ -14,7 +14,7 @@
 
 namespace spidar::test {
 
-/// Those that a list for caps names: SPIDAR_VIDEO_FORMATS or SPIDAR_UNPACKED_FORMATS.
+/// The formats in a list for caps: SPIDAR_VIDEO_FORMATS or SPIDAR_UNPACKED_FORMATS.
 inline std::vector<std::string> formats_in(std::string text) {
   for (char& c : text) {
     if (c == '{' || c == '}' || c == ',') c = ' ';
@@ -25,7 +25,7 @@ inline std::vector<std::string> formats_in(std::string text) {
   return found;
 }
 
-/// All that are read in place.
+/// All formats that are read in place.
 inline const std::vector<std::string>& video_formats() {
   static const std::vector<std::string> formats = formats_in(SPIDAR_VIDEO_FORMATS);
   return formats;
@@ -35,8 +35,8 @@ inline GstVideoFormat format_named(const std::string& name) {
   return gst_video_format_from_string(name.c_str());
 }
 
-/// Writes a component of one pixel: `level`, 0 … 255, in the eight highest of its bits and in those
-/// below, if there are any, those of `rest`.
+/// Writes a component of one pixel: `level`, 0 … 255, into its eight highest bits, and `rest` into
+/// the bits below, if there are any.
 inline void write_sample(const GstVideoFormatInfo& format, guint component, guint level, guint rest,
                          guint8* sample) {
   const guint depth = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component);
@@ -47,13 +47,13 @@ inline void write_sample(const GstVideoFormatInfo& format, guint component, guin
   const guint below = depth - 8;
   const guint value = level << below | (rest & ((1u << below) - 1));
   const auto word = static_cast<guint16>(value << GST_VIDEO_FORMAT_INFO_SHIFT(&format, component));
-  // A word need not lie at an even address.
+  // A word may lie at an odd address.
   const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(&format);
   sample[low_first ? 0 : 1] = static_cast<guint8>(word & 0xFF);
   sample[low_first ? 1 : 0] = static_cast<guint8>(word >> 8);
 }
 
-/// Of a component of a pixel, bytes: in words V of a plane that it shares with U is the second one.
+/// The offset of a pixel's component, bytes: in a plane of UV words, V is the second byte.
 inline int component_offset(const GstVideoFormatInfo& format, guint component) {
   const bool word = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) > 8;
   if (!word) return GST_VIDEO_FORMAT_INFO_POFFSET(&format, component);

@@ -14,7 +14,6 @@ double texture(double x, double y);
 /// neutral. `plane0_extra_stride` bytes are added to each line of plane 0 (with a GstVideoMeta).
 GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride = 0);
 
-/// Caps string of raw video.
 GstCaps* make_caps(const char* format, int width, int height, int fps_n = 25, int fps_d = 1);
 
 }  // namespace spidar::test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An X server for a test, without a screen.
 #pragma once
 
 #include <csignal>
@@ -12,8 +11,8 @@
 
 namespace spidar::test {
 
-/// Xvfb on a free display. While it lives, DISPLAY names it and WAYLAND_DISPLAY is unset. No window
-/// may be open when it is created or destroyed.
+/// An X server without a screen: Xvfb on a free display. While it lives, DISPLAY names it and
+/// WAYLAND_DISPLAY is unset. No window may be open when it is created or destroyed.
 class VirtualDisplay {
  public:
   VirtualDisplay() {
@@ -34,7 +33,7 @@ class VirtualDisplay {
   VirtualDisplay(const VirtualDisplay&) = delete;
   VirtualDisplay& operator=(const VirtualDisplay&) = delete;
 
-  /// One for all windows of the process, because GLFW keeps the first display that it gets.
+  /// One display for all windows of the process, because GLFW keeps its first one.
   static VirtualDisplay& shared() {
     static VirtualDisplay display;
     return display;
@@ -49,7 +48,7 @@ class VirtualDisplay {
 
  private:
   void signal(int number) const {
-    if (process_ > 0) kill(process_, number);  // others are no business of ours
+    if (process_ > 0) kill(process_, number);  // only this process is ours
   }
 
   void start() {
@@ -65,7 +64,7 @@ class VirtualDisplay {
     }
     close(ends[1]);
     char number[16] = {};
-    const ssize_t length = read(ends[0], number, sizeof number - 1);  // ends with a new line
+    const ssize_t length = read(ends[0], number, sizeof number - 1);  // ends with a line break
     close(ends[0]);
     if (length >= 2) {
       name_ = ":" + std::string(number, static_cast<size_t>(length) - 1);

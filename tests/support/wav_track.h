@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A haptic track whose samples are known.
 #pragma once
 
 #include <cmath>
@@ -18,7 +17,7 @@ inline TrackSample sample_at(double ms) {
   return {fraction, -fraction / 2, fraction / 3, fraction / 100, 0, -fraction / 50};
 }
 
-/// A WAV file (IEEE float) of so many samples, one every millisecond.
+/// A haptic track with known samples: a WAV file (IEEE float), one sample every millisecond.
 inline void write_track(const std::string& path, int count,
                         const std::function<TrackSample(double)>& sample_of = sample_at) {
   std::string wav = "RIFF....WAVEfmt ";

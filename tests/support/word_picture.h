@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A grey picture of more than 8 bits.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,8 @@ inline std::string name_of(const LumaSample& sample) {
          (sample.big_endian ? ", big endian" : ", little endian");
 }
 
-/// `picture` in words, with noise in the bits below its eight. Rows begin at odd addresses.
+/// `picture` in words of more than 8 bits, with noise in the lower bits. Rows begin at odd
+/// addresses.
 class WordPicture {
  public:
   WordPicture(const Picture& picture, const LumaSample& sample, uint32_t seed = 1)

@@ -42,7 +42,6 @@ inline std::string write_ahap(const std::vector<TrackSample>& samples,
   return text;
 }
 
-/// The indices of the keyframes.
 inline std::vector<size_t> choose_keyframes(const std::vector<double>& values, double tolerance) {
   std::vector<size_t> chosen;
   KeyframeChooser chooser(tolerance, [&chosen](size_t index, double) { chosen.push_back(index); });
