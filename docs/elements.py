@@ -107,16 +107,19 @@ class Fields:
             self.lists.setdefault(name, []).append(row)
 
     def items(self, name, without=()):
-        """A list of the fields, neighbours of one meaning on one line. What the message has is not told again."""
-        rows = []
+        """A list of the fields, neighbours of one meaning on one line, and those that the message has on the last one."""
+        rows, again = [], []
         for key, label, facts, meaning in self.lists[name]:
             if [key, label, facts, meaning] in without:
                 continue
-            is_told = name != "message" and (key, meaning) in self.seen
+            if name != "message" and (key, meaning) in self.seen:
+                again.append(f"`{label}`")
+                continue
             self.seen.add((key, meaning))
             facts = facts.removeprefix("uint64").removeprefix(", ")
-            rows.append((f"`{label}`", f"{facts and f' ({facts})'}: {'as in the message' if is_told else meaning}"))
-        return [f"- {', '.join(label for label, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
+            rows.append((f"`{label}`", f"{facts and f' ({facts})'}: {meaning}"))
+        lines = [f"- {', '.join(label for label, _ in alike)}{words}" for words, alike in groupby(rows, key=lambda row: row[1])]
+        return lines + ([f"- {', '.join(again)}: as in the message"] if again else [])
 
 
 def table(columns, rows):
