@@ -17,8 +17,7 @@ namespace spidar {
 /// A signed number of 64 bits is a time or a duration in ns. GStreamer's times have no sign: −1 is
 /// GST_CLOCK_TIME_NONE.
 using Scalar = std::variant<bool, int32_t, uint32_t, uint64_t, int64_t, double, const char*>;
-/// Values of one row, each with the end of its name. They are separate fields, and an array in
-/// JSON.
+/// Values of one row, each with the end of its name. They are separate fields; in JSON, an array.
 using Parts = std::vector<std::pair<const char*, Scalar>>;
 /// A matrix is one field, an array.
 using FieldValue = std::variant<Scalar, Parts, Eigen::MatrixXd>;

@@ -15,8 +15,7 @@ std::string place(std::string_view text, size_t at) {
          ", column " + std::to_string(at - line_begin + 1);
 }
 
-/// The bracket that opens one level too many; npos when none does. Brackets in strings do not
-/// count.
+/// The bracket, outside of strings, that opens one level too many; npos when none does.
 size_t first_too_deep(std::string_view text) {
   size_t depth = 0;
   bool is_string = false;

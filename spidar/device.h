@@ -126,8 +126,7 @@ class Openable {
   /// again after close(), or after a fault that is_lost().
   virtual void open() = 0;
 
-  /// Sets the motors to zero, then releases the device. May be called twice, and when the device is
-  /// lost.
+  /// Sets the motors to zero, then releases the device. May be called twice, and after a loss.
   virtual void close() noexcept = 0;
 
   /// Describes for the user what open() found: "at 1-2: CyVerse USB 2.0 SH4, rotary switch 3".

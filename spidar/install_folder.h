@@ -8,13 +8,11 @@
 
 namespace spidar {
 
-/// Returns the file from which this code was loaded, a program or a library; empty when the system
-/// does not tell.
+/// Returns the file from which this code was loaded, a program or a library; empty if unknown.
 std::filesystem::path own_file();
 
 /// Returns the prefix below which `file` is installed, if `file` lies in the prefix's folder for
-/// libraries, GStreamer plugins or programs; empty for a file anywhere else, such as in a build
-/// folder.
+/// libraries, GStreamer plugins or programs; empty for a file elsewhere, as in a build folder.
 std::filesystem::path prefix_of(const std::filesystem::path& file);
 
 /// Returns the path `below` under the prefix of this code or, if this code is not installed, under

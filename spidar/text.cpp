@@ -13,8 +13,7 @@
 namespace spidar {
 namespace {
 
-/// The length of the first character of a text in bytes; 0 if the character is not UTF-8 (RFC
-/// 3629).
+/// The length of the first character of a text in bytes; 0 if not UTF-8 (RFC 3629).
 size_t first_of(std::string_view text, uint32_t& code) noexcept {
   const auto byte = [&](size_t i) { return static_cast<uint8_t>(text[i]); };
   code = byte(0);

@@ -26,8 +26,7 @@ std::string as_text(const T& value) {
 /// come from a device.
 std::string printable(std::string_view text);
 
-/// Returns "; did you mean max-force?" for a word that is nearly one of `known`; else an empty
-/// text.
+/// Returns "; did you mean max-force?" for a word that is nearly one of `known`; else empty.
 std::string meant(const std::string& word, const std::vector<std::string>& known);
 
 /// The number from 1 to `largest` in an `option` "NAME=NUMBER", where `name` is "NAME="; 0 if

@@ -56,8 +56,7 @@ class GainController {
   /// 0 means that the interval, or the dead zone, is unknown.
   double force_N(double speed_px_s, double interval_s = 0, double dead_zone_px_s = 0);
 
-  /// Applies from the next speed on; the scale stays unless the law changes. Throws as validate()
-  /// does.
+  /// Applies from the next speed on. The scale stays unless the law changes. Throws as validate().
   void configure(const ControllerSettings& settings);
 
   /// Resets the scale: after a flush or a discontinuity of the stream.

@@ -86,8 +86,7 @@ void validate(const FilterSettings& settings);
 /// Smooths the motion before it becomes force, with one 1 € filter each for velocity, growth and
 /// roll. All are filtered in px/s of the reference frame, growth and roll as the speed at kRim_px,
 /// so that one β fits all. When nothing moves and the filtered motion is slower than kRest_px_s,
-/// the result is exactly zero. The dead zone shrinks as the filter reduces the noise of the
-/// velocity.
+/// the result is exactly zero. The dead zone shrinks as the noise of the velocity does.
 class MotionFilter {
  public:
   /// Filters the `motion` of a frame of `frame_height` pixels, `interval_s` > 0 after the previous

@@ -21,8 +21,7 @@ class Washout {
  public:
   /// Returns `wrench` minus its low-pass, limited to `most_N` as one force (size_N()), because a
   /// force that reverses would be up to twice as large. With a cut-off of 0 the result is exactly
-  /// `wrench`. `interval_s` > 0 is the time since the previous call, during which that call's
-  /// wrench lasted.
+  /// `wrench`. `interval_s` > 0 is the time since the previous call.
   Wrench apply(const Wrench& wrench, double interval_s, double cutoff_Hz, double most_N) {
     if (cutoff_Hz == 0) {
       reset();

@@ -114,8 +114,7 @@ int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
   return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(fraction_ns));
 }
 
-/// The earliest time at which the curve can reach `added`, which follows `before` and has just
-/// become known.
+/// The earliest time at which the curve can reach `added`, a frame after `before` that is new.
 int64_t WrenchTimeline::soonest(const TimedWrench& before,
                                 const TimedWrench& added) const noexcept {
   if (present_ns_ == INT64_MIN) return INT64_MIN;

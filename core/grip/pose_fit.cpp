@@ -58,8 +58,7 @@ Pose restart(int n) {
 constexpr int kRestarts = 14;
 
 // The direction in which the lengths change least, times the smallest singular value of J: by
-// inverse iteration on H = JᵀJ, which converges fast where that value is much smaller than the
-// others.
+// inverse iteration on H = JᵀJ, which converges fast where that value is much the smallest.
 Twist weakest_direction(const NormalEquations& equations) {
   constexpr int kIterations = 6;
   Twist direction;

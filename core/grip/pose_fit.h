@@ -51,7 +51,7 @@ class PoseFitter {
   PoseFit levenberg_marquardt(const StringVector& lengths_m, const Pose& start,
                               int left_out) const noexcept;
 
-  /// Runs levenberg_marquardt() from `start` and, if that does not fit, from 14 turned poses at the
+  /// Runs levenberg_marquardt() from `start` and then, if needed, from 14 turned poses at the
   /// centre.
   PoseFit search(const StringVector& lengths_m, const Pose& start) const noexcept;
 

@@ -42,8 +42,7 @@ constexpr int kRounds = 4;
 constexpr double kResidualWeight = 8;
 // A dead encoder fits by chance when the grip passes through; a repaired string continues to fit. A
 // string that has moved this far, some three hundred encoder steps, and fitted on the whole way, is
-// not dead. Leaving it out for longer is dangerous, because without it the strings may not be able
-// to brake.
+// not dead. Leaving it out for longer is dangerous: the other strings may not be able to brake.
 constexpr int kTicksToTrust = 100;
 constexpr double kMovedToTrust_m = 5e-3;
 
@@ -211,8 +210,7 @@ PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
 }
 
 // Uses a string again when its length has fitted the pose for some time and has moved meanwhile, or
-// has fitted for a long way: a dead encoder's count fits as long as the grip happens to stand
-// still.
+// has fitted for a long way: a dead encoder's count fits as long as the grip stands still.
 int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
   const int i = result.faulty_string;
   const bool fitting = i >= 0 && i == faulty_string_ &&
@@ -273,8 +271,7 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
 
 // Replaces a pose that was not found, or is further from the expected one than a hand can have
 // moved the grip, by one without a string, if that pose exists and is much nearer, and the string
-// has another length there. Near the walls of the frame, poses with almost the same lengths lie
-// apart.
+// has another length there. Near the walls, poses with almost the same lengths lie apart.
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;

@@ -53,8 +53,7 @@ class FrozenCounts {
 enum class PoseStatus {
   kSolved,
   kNotConverged,  ///< no pose was found that fits the lengths: returns the last good pose
-  /// The lengths fit two poses, or fit one only with a string that may be dead: returns the last
-  /// good pose.
+  /// The lengths fit two poses, or one with a string that may be dead: returns the last good pose.
   kAmbiguous,
   kBadInput,  ///< a length is negative or not finite: returns the last good pose
 };
@@ -108,9 +107,8 @@ class PoseSolver {
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
   /// Finds the pose near the last one, by Gauss–Newton from the last pose moved on by the last
-  /// motion. With eight strings, one that does not fit is left out and reported. The string is used
-  /// again when its length has fitted for 100 calls and has moved meanwhile, or has fitted while it
-  /// moved by 5 mm.
+  /// motion. With eight strings, one that does not fit is left out and reported. The string returns
+  /// when its length has fitted for 100 calls with some motion, or over 5 mm of motion.
   PoseResult track(const StringVector& lengths_m) noexcept;
 
   /// Finds the pose anywhere in the frame, by Levenberg–Marquardt from the last pose and from

@@ -79,8 +79,7 @@ struct Bounds {
   const StringVector& low;
   const StringVector& high;
 
-  // The difference of any other bounds than finite ones that are not crossed is infinite, NaN or
-  // negative.
+  // The difference of bounds that are crossed or not finite is negative, infinite or NaN.
   bool are_valid() const {
     const StringVector room_N = high - low;
     return room_N.allFinite() && room_N.minCoeff() >= 0;
@@ -170,8 +169,7 @@ unsigned go_clipped(const Bounds& bounds, const Iterate& x, const Step& step, It
   return clipped;
 }
 
-// The change of the objective from `x` to `next`, which is exact because the objective is
-// quadratic.
+// The change of the objective, from `x` to `next`, exact because the objective is quadratic.
 double change(const Iterate& x, const Iterate& next) {
   return (next.t - x.t).dot(x.gradient + next.gradient) / 2;
 }
@@ -238,8 +236,7 @@ class Search {
       const Step step = newton_step(objective_, *x_);
       const unsigned clipped = go_clipped(bounds_, *x_, step, *next_);
       objective_.evaluate(next_->t, next_->residual, next_->gradient);
-      // The first round may raise the objective, because the start is only a guess. Later rounds
-      // lower it.
+      // The first round may raise the objective, because the start is only a guess.
       if (clipped && iterations > 1 && !(change(*x_, *next_) < 0)) {
         go_to_first_bound(bounds_, step, *x_);
         objective_.evaluate(x_->t, x_->residual, x_->gradient);
@@ -307,8 +304,7 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   const Bounds bounds{problem.t_min_N, problem.t_max_N};
   TensionResult result;
   if (is_valid(problem, objective, bounds)) {
-    // When nothing pulls, the solution may be zero, which gives the rest of the last tensions no
-    // scale.
+    // When nothing pulls, the solution may be zero, so the rest of the last tensions has no scale.
     const bool warm = warm_ && objective.has_pull();
     Search search(objective, bounds, warm ? last_N_ : problem.t_ref_N);
     if (!warm) search.free_all();

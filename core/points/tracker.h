@@ -14,8 +14,7 @@ namespace spidar {
 /// How OpenCvTracker selects points (Shi–Tomasi).
 struct TrackerSettings {
   double quality_level = 0.01;  ///< of the strongest corner's eigenvalue, 0 … 1
-  /// The minimum distance between selected features, in pixels of the reference frame; finite and ≥
-  /// 0.
+  /// The minimum distance between selected features, px of the reference frame; finite and ≥ 0.
   double min_distance_px = 10.0;
 
   bool operator==(const TrackerSettings& o) const {
@@ -51,8 +50,7 @@ class OpenCvTracker {
   struct Result {
     std::vector<FollowedPoint> points;  ///< found in both frames; empty with kFirst
     int features = 0;                   ///< the points to look for in the next frame
-    /// With kSame the next frame will be compared with the same picture as this one. Never
-    /// kWaiting.
+    /// With kSame the next frame is compared with the same picture as this one. Never kWaiting.
     Likeness picture = Likeness::kFirst;
   };
 

@@ -10,8 +10,7 @@
 namespace spidar::touch {
 namespace {
 
-/// The slope of the texture at the position of the grip, not of the proxy, which friction can hold
-/// back.
+/// The texture's slope at the position of the grip, not of the proxy, which friction can hold back.
 Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
                               const Eigen::Vector3d& grip_m) noexcept {
   const Eigen::Vector2d slope = gain * texture.at(grip_m.x(), grip_m.y()).slope;
@@ -20,8 +19,7 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
   return slope * (ContactForce::kMaxTextureSlope / steepness);
 }
 
-/// The velocity additionally lags by its low-pass filter; the remaining delay applies to all
-/// forces.
+/// The velocity also lags by its low-pass filter; the remaining delay applies to all forces.
 ForcePath path_of(const ContactSettings& settings) noexcept {
   ForcePath path;
   path.max_force_N = settings.max_force_N;
@@ -98,8 +96,7 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
   const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
   double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
-  // A receding surface takes energy out at the actual force, which the bound may keep below the
-  // spring force.
+  // A receding surface takes energy out at the actual force, which may be below the spring force.
   if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
   budget_.update(moved_m, velocity_m_s_, put_in_J, stored_J);
 }

@@ -14,8 +14,8 @@ namespace spidar::touch {
 /// docs/strings.md explains why these values are stable.
 struct ContactSettings {
   double stiffness_N_m = 500;  ///< above 0, at most kMaxStiffness_N_m
-  /// Delay from a motion of the grip to the resulting force: half a tick for the zero-order hold,
-  /// one tick because the pose comes from the last exchange, and the lag of the drive (2 ms if
+  /// Delay from a motion of the grip to the resulting force: half a tick for the zero-order hold, a
+  /// tick because the pose comes from the last exchange, and the lag of the drive (2 ms if
   /// unknown).
   double delay_s = 0.0035;  ///< finite and ≥ 0
   /// The damping B, in units of stiffness · delay. Finite and ≥ 1: below 1 the delay generates more
@@ -31,8 +31,7 @@ struct ContactSettings {
   /// Force rendered at the same time that does not come from the contact, such as the film's. It
   /// shares these two limits with the contact.
   Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
-  /// Mass of the grip alone, finite and above 0. A lighter grip can gain some energy from a fast
-  /// tap.
+  /// Mass of the grip alone, finite and above 0. A lighter grip can gain energy in a fast tap.
   double least_mass_kg = 0.05;
   bool bounds_energy = true;  ///< false disables EnergyBudget, for measurements
 
@@ -51,9 +50,8 @@ class ContactForce {
  public:
   /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;
-  /// The texture force is at most this fraction of the normal force, of which at most
-  /// kMaxTexture_N counts. The texture acts as a spring along the surface, and this limit bounds
-  /// its stiffness.
+  /// The texture force is at most this fraction of the normal force, of which at most kMaxTexture_N
+  /// counts. The limit bounds the texture's stiffness as a spring along the surface.
   static constexpr double kMaxTextureSlope = 0.15;
   static constexpr double kMaxTexture_N = 1;
 

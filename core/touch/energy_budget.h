@@ -19,8 +19,7 @@ struct ForcePath {
   double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
   double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
-  /// How long a force is held until the next one. The next tick may be late, which `dt_s` does not
-  /// tell.
+  /// How long a force is held until the next one. The next tick may be late.
   double tick_s = 0.001;
   /// The longest tick that counts in the safety chain's slew limit.
   double longest_tick_s = 0.002;
@@ -37,8 +36,7 @@ struct ForcePath {
 /// this impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the
 /// energy that is left.
 ///
-/// `dt_s` is the time since the last tick, which a late tick makes longer, and the next one
-/// shorter.
+/// `dt_s` is the time since the last tick; it is long for a late tick, and short for the next one.
 class EnergyBudget {
  public:
   /// Call once per tick, before choosing the force. `moved_m` is the displacement of the grip since
@@ -65,8 +63,8 @@ class EnergyBudget {
 
   /// Corrects the force of this tick: the device gives `given`, which may be less, point elsewhere
   /// and have a torque. Without this call, and beside another force, whose part is unknown, the
-  /// device is assumed to give the command. The grip has turned by `turn_rad` since the exchange of
-  /// the last tick.
+  /// device is assumed to give the command. The grip has turned by `turn_rad` since the last
+  /// exchange.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
 
   /// Estimated energy absorbed from the hand in this contact and not yet returned.

@@ -39,8 +39,7 @@ class HeightField {
   static constexpr int kCells = kColumns * kRows;
 
   /// All heights start at 0. The picture measures `width_m` × `height_m` in the device frame.
-  /// Throws std::invalid_argument unless both are finite and above 0. Only this constructor
-  /// allocates.
+  /// Throws std::invalid_argument unless both are finite and above 0. No other function allocates.
   HeightField(double width_m, double height_m);
 
   float* row(int y) noexcept { return z_m_.data() + y * kColumns; }
@@ -54,8 +53,7 @@ class HeightField {
   double x_m(int x) const noexcept { return (x + 0.5 - 0.5 * kColumns) * cell_x_m_; }
   double y_m(int y) const noexcept { return (0.5 * kRows - 0.5 - y) * cell_y_m_; }
 
-  /// Evaluates the surface at a position in the device frame. NaN counts as the left or upper
-  /// border.
+  /// Evaluates the surface at a position in the device frame. NaN means the left or upper border.
   SurfacePoint at(double x_m, double y_m) const noexcept;
 
   /// A picture of the relief for the eye: the brightness of each cell, rows from the top, as on

@@ -39,8 +39,8 @@ void Proxy::move(const MovingRelief& surface, double friction, const Eigen::Vect
   started_ = true;
 }
 
-/// Reduces the shift of the surface. It falls faster than it rises because falling gives no energy
-/// to the hand.
+/// Reduces the shift of the surface, which falls faster than it rises, because it then gives no
+/// energy.
 double Proxy::settled_m(double dt_s) noexcept {
   if (shift_m_ >= 0) {
     rise_m_s_ = 0;

@@ -16,8 +16,7 @@ namespace {
 
 constexpr double kLongestEvent_s = 30;
 constexpr size_t kMaxPoints = 16;
-/// From 0, dull, to 1, crisp. A force that changes with a picture is nearer to a push than to a
-/// buzz.
+/// From 0, dull, to 1, crisp. A force that changes with a picture is a push rather than a buzz.
 constexpr double kSharpness = 0.2;
 
 /// Rounds, so that files are short and 0.02 is not 0.020000000000000001.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Haptic tracks in exchange formats: MPEG's HJIF (ISO/IEC 23090-31) and AHAP, the files of Core
-/// Haptics.
+/// Haptic tracks in exchange formats: MPEG's HJIF (ISO/IEC 23090-31) and AHAP of Core Haptics.
 #pragma once
 
 #include <cstddef>

@@ -28,8 +28,8 @@ void write_funscript(const SampleSource& samples, size_t channel, const WriteTex
 /// The latest accepted time of a position: 12 h.
 constexpr int64_t kLatestPosition_ms = int64_t{12} * 3600 * 1000;
 
-/// The force and torque of the positions 0 and 100 in scripts from elsewhere: the usual max-force
-/// and max-torque.
+/// Force and torque of the positions 0 and 100 in other scripts: the usual max-force and
+/// max-torque.
 constexpr double kScriptForce_N = 3, kScriptTorque_Nm = 0.1;
 
 /// One axis of a funscript: the positions of a device over time, and how they are felt.
@@ -45,8 +45,8 @@ struct ScriptAxis {
   bool is_noted = false;      ///< whether channel and gain are those of write_funscript()
   std::vector<Point> points;  ///< in order of time; empty: the axis is at rest
 
-  /// A sample of the track, along straight lines; zero before the first position and after the last
-  /// one.
+  /// A sample of the track, along straight lines; zero before the first and after the last
+  /// position.
   float at(int64_t time_ms) const;
 };
 
@@ -57,8 +57,7 @@ struct ScriptAxis {
 /// Source: the README and default settings of MultiFunPlayer; OFS-NG calls its files
 /// film.R1.funscript (issue 2 of ofs69/ofs-ng).
 std::optional<size_t> channel_of_axis(std::string_view name);
-/// Whether `name` is an axis of those players that is neither a force nor a torque: "vib", "V0",
-/// "suck" …
+/// Whether `name` is an axis of those players without force and torque: "vib", "V0", "suck" …
 bool is_other_axis(std::string_view name);
 
 struct Funscript {

@@ -10,8 +10,7 @@
 
 namespace spidar {
 
-/// The sample rate of the tracks that this project writes: one sample a millisecond, as in the
-/// haptic loop.
+/// The sample rate of this project's tracks: one sample a millisecond, as in the haptic loop.
 constexpr int kTrackRate_Hz = 1000;
 constexpr int64_t kTrackPeriod_ns = 1'000'000'000 / kTrackRate_Hz;
 /// Channels of a track: fx fy fz tx ty tz, in the device frame D.

@@ -15,8 +15,7 @@ namespace spidar {
 /// safety chain; here the ramp is part of the samples, so that a track does not step to zero.
 class TrackSampler {
  public:
-  /// The first sample is the first whole millisecond at or after `from_ns` >= 0. Forgets all
-  /// frames.
+  /// The first sample is at the first whole millisecond from `from_ns` >= 0 on. Forgets all frames.
   void begin(int64_t from_ns) noexcept {
     *this = {};
     next_ns_ = (from_ns + kTrackPeriod_ns - 1) / kTrackPeriod_ns * kTrackPeriod_ns;

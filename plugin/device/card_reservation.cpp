@@ -144,8 +144,7 @@ Ref<GVariant> CardReservation::call(const char* to, const char* path, const char
   return result;
 }
 
-/// Answers others who want the card, in GDBus' own thread. GDBus answers every other call with an
-/// error.
+/// Answers requests for the card, in GDBus' own thread. GDBus answers other calls with an error.
 GDBusMessage* CardReservation::answer(GDBusConnection* bus, GDBusMessage* message,
                                       gboolean incoming, gpointer path) {
   const bool is_asked =

@@ -20,8 +20,7 @@ void device_message_fields(const char* state, const std::string& device, const s
                            FieldSink& to);
 
 /// Reports on the bus when something is wrong with an element's device, each warning once per
-/// stream. Streaming thread, and start() before it. Sessions are null while the element has no
-/// device.
+/// stream. Streaming thread, and start() before it. Without a device, sessions are null.
 class DeviceWarnings {
  public:
   /// `what` continues without the device: "The video".
@@ -29,8 +28,7 @@ class DeviceWarnings {
       : element_(element), what_(std::move(what)) {}
 
   /// Opens a device by calling `opens`, which returns why the haptic trace cannot be written, or an
-  /// empty string; reports the result. Returns false when the stream must not begin without
-  /// `device`.
+  /// empty string. Reports the result. Returns false when the stream must not begin.
   bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
             const std::function<std::string()>& opens);
   /// Tells that the element starts, so that every warning may be posted again.
@@ -75,8 +73,7 @@ class DeviceWarnings {
   uint64_t times_lost_ = 0;
 };
 
-/// Warns of the number of rows that are missing in `trace`, such as "The trace", unless the number
-/// is 0.
+/// Warns of the number of missing rows in `trace`, such as "The trace", unless the number is 0.
 void warn_of_missing_rows(GstElement* element, const char* trace, uint64_t rows);
 
 }  // namespace spidar

@@ -47,16 +47,14 @@ class HapticOutput {
   /// The limit of the open device. State changes.
   double max_force_N() const { return max_force_N_; }
   /// Begins the haptic trace, once. A file that has rows is overwritten only when there is a film,
-  /// so that a mistyped film leaves the file alone. Returns as open(), which calls this without a
-  /// film.
+  /// so that a mistyped film leaves the file alone. Returns as open(), which calls this first.
   std::string begin_trace(bool has_film);
   /// Brings the motors to rest and closes the device.
   void close();
 
   PlaybackFollower& follower() { return follower_; }
   /// Limits the force of the open device from the next tick on. A limit above the force that the
-  /// device can exert in every direction is lowered to that force, which is reported once for each
-  /// opened device.
+  /// device can exert in every direction is lowered and reported, once for each opened device.
   void set_max_force(double max_force_N);
 
   /// Null while closed. Opened and closed by state changes only.

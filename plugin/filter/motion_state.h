@@ -38,8 +38,7 @@ struct MotionState {
   /// Processes a frame with `frame_settings`. Returns report().
   const FrameReport& process(const GstVideoFrame& frame, const GstSegment& segment);
   const FrameReport& report() const { return report_; }
-  /// Tells that the next frame does not continue the previous one: a seek, another film, another
-  /// rate.
+  /// Tells that the next frame does not continue the previous one: a seek, a new film or rate.
   void begin_epoch() { ++epoch_; }
   /// Call this instead of process() for a frame without a picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);

@@ -176,8 +176,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
       gst_event_parse_flush_stop(event, &reset_time);
       GST_DEBUG_OBJECT(self, "end of flush%s", reset_time ? ", running time starts at zero" : "");
       state.track.loader.set_interrupted(false);
-      // The loop may have received a frame that was in progress when the flush began, so it is
-      // cleared again.
+      // A frame that was in progress when the flush began may have reached the loop.
       state.feed.clear();
       state.reset();
       if (reset_time) state.feed.output.follower().expect_base_time();

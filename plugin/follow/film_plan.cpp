@@ -33,8 +33,7 @@ std::string path_of_uri(const std::string& uri) {
   return path && is_here ? path : "";
 }
 
-/// Escapes characters that stand for themselves: each '#', and each '%' without two digits behind
-/// it.
+/// Escapes characters that stand for themselves: each '#', and each '%' not before two digits.
 std::string escaped(const std::string& uri) {
   std::string result;
   for (size_t i = 0; i < uri.size(); ++i) {

@@ -37,8 +37,8 @@ class FilmThread {
   FilmThread(const FilmThread&) = delete;
   FilmThread& operator=(const FilmThread&) = delete;
 
-  /// Sets the goal. Call this every few tens of milliseconds: the force rests after 0.3 s without a
-  /// goal.
+  /// Sets the goal. Call this every few tens of milliseconds: without it, the force rests after 0.3
+  /// s.
   void aim(FilmGoal goal);
   /// Returns the requests since the last call.
   FilmWish take_wish();

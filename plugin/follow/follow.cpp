@@ -410,8 +410,7 @@ void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
   quit(loop);
 }
 
-/// Returns null, with the reason in `error`, after kAnswer_ms at the latest, or when `loop` is quit
-/// meanwhile.
+/// Returns null, with the reason in `error`, after kAnswer_ms at the latest, or when `loop` quits.
 Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
   struct Call {
     GMainLoop* loop;

@@ -42,8 +42,7 @@ class FollowedFilm {
   FollowedFilm(const FollowedFilm&) = delete;
   FollowedFilm& operator=(const FollowedFilm&) = delete;
 
-  /// Prints the messages of the pipeline, each text once. Returns false when the pipeline has
-  /// failed.
+  /// Prints the pipeline's messages, each text once. Returns false when the pipeline has failed.
   bool check();
   /// Follows a player that plays at `rate` and is at this position. Small errors are corrected
   /// slowly, large ones by a seek.

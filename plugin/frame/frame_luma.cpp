@@ -71,8 +71,7 @@ bool is_unpacked(const GstVideoFormatInfo& format) {
 }
 
 /// Whether the two views of a frame were squeezed into it. Demuxers of Matroska and MP4 say that
-/// there are two views, but not whether they are squeezed; GStreamer guesses that from the shape of
-/// the frame.
+/// there are two views, but not whether they are squeezed; GStreamer guesses that from the shape.
 bool has_half_views(const GstVideoInfo& info) {
   const auto flags = static_cast<int>(GST_VIDEO_INFO_MULTIVIEW_FLAGS(&info));
   return (flags & GST_VIDEO_MULTIVIEW_FLAGS_HALF_ASPECT) != 0 ||
@@ -179,8 +178,7 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const PicturePart& sho
 }
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
-  // Takes the lines of one field, with their mean between them, so that the picture keeps its
-  // height.
+  // Takes the lines of one field, with their means in between, which keeps the picture's height.
   const size_t width = static_cast<size_t>(frame.width);
   const int first = top_first ? 0 : 1;
   field_.resize(width * static_cast<size_t>(frame.height));

@@ -35,8 +35,7 @@ enum class PointOwner {
   kObject,
 };
 
-/// A point of the frame, in pixels of the whole frame, with (0, 0) at the centre of the first
-/// pixel.
+/// A point, in pixels of the whole frame, with (0, 0) at the centre of the first pixel.
 struct OwnedPoint {
   uint32_t id = 0;
   ImagePoint from, to;
@@ -45,8 +44,7 @@ struct OwnedPoint {
   bool is_new = false;  ///< not in the previous frame
 };
 
-/// What was found in a frame, or why nothing was. Message, trace and warnings are made from this
-/// report.
+/// What was found in a frame, or why nothing was, for message, trace and warnings.
 struct FrameReport {
   enum class Fault {
     kNone,
@@ -63,8 +61,7 @@ struct FrameReport {
   FrameStamp stamp;  ///< the times at the element
   Fault fault = Fault::kNone;
   bool analyzed = false;
-  /// The file of the haptic track that is played; null: none. With a track, the frame is not
-  /// measured.
+  /// The file of the haptic track that is played; null: none, and the frame is measured.
   std::shared_ptr<const std::string> track;
   /// In pixels of the stored frame, with the wrench turned as the picture is shown. While a haptic
   /// track is played, only interval and wrench are set.

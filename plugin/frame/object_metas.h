@@ -27,8 +27,7 @@ struct ObjectBox {
 constexpr const char* kObjectName = "spidar-object";
 
 /// Reads the regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a
-/// size are left out. Ids number the regions within a frame, and do not identify them in the next
-/// one.
+/// size are left out. Ids number the regions of a frame, and do not identify them in the next.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
 /// Attaches the visible objects to `buffer`, which is writable, as regions and as detections.

@@ -22,8 +22,7 @@ Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 /// An object's box, in pixels of the frame, of which `film` is the part that was analysed.
 Eigen::AlignedBox2d box_px(const MovingObject& object, const PicturePart& film);
 
-/// Assigns points to the background or to objects for display, and follows them from frame to
-/// frame.
+/// Assigns points to the background or to objects for display, over several frames.
 class PointOwners {
  public:
   /// Fills in points, lost and felt of an analysed frame.

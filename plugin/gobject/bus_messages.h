@@ -33,8 +33,7 @@ inline GstResourceError resource_error(DeviceErrorCode code) {
 /// Posts `error` as a message of the element, of the kind GST_MESSAGE_ERROR or GST_MESSAGE_WARNING.
 /// A device that cannot be used is RESOURCE with resource_error() of its code, a wrong profile or
 /// number RESOURCE/SETTINGS, anything else LIBRARY/FAILED. The debug text begins with the line of
-/// the source that found the error, or `location` where the exception has none, and ends with
-/// `details`.
+/// the source that found the error, or `location` without one, and ends with `details`.
 inline void post_exception(GstElement* element, GstMessageType kind, const std::exception& error,
                            const std::string& details, SourceLocation location) {
   const auto* const device = dynamic_cast<const DeviceError*>(&error);

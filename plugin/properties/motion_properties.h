@@ -64,8 +64,7 @@ struct Pointer {
 /// The settings that are read again for each frame.
 struct FrameSettings {
   /// In the settings of the element, its pointer is the fixed one. In those of a frame, the pointer
-  /// is a position in the frame before it is turned, and rules, boxes and the clicked object are
-  /// there, too.
+  /// is a position in the frame before it is turned, and rules, boxes and the click are there.
   AnalyzerSettings analyzer;
   Pointer::Kind pointer = Pointer::Kind::kFixed;
   OnDeviceError on_device_error = OnDeviceError::kWarn;
@@ -89,8 +88,7 @@ struct MotionProperties : FrameSettings {
 /// All properties of spidarmotion, `stats` included.
 const PropertyTable<MotionProperties>& motion_properties();
 
-/// Parses "grip", "mouse", or two numbers from 0 to 1 with a comma between them; nothing for other
-/// texts.
+/// Parses "grip", "mouse", or "X,Y" with numbers from 0 to 1; nothing for other texts.
 std::optional<Pointer> parse_pointer(const std::string& text);
 std::string text_of(const Pointer& pointer);
 

@@ -189,8 +189,7 @@ class PropertyTable {
   std::vector<Property<Settings>> rows_;
 };
 
-/// What a change of a property does besides storing it, for parts that do not read the settings
-/// themselves.
+/// What a change of a property does besides storing it, for parts that do not read the settings.
 template <typename Element>
 struct PropertyEffect {
   const char* property;

@@ -19,8 +19,7 @@ namespace spidar {
 
 /// Why nothing is felt: the reason why the force is below kFeltForce_N, or is lowered
 /// (kGripReleased, kVibration). The reasons up to kEnded and those from kCannotTouch on are of the
-/// device, the playback or, while touching, the contact, and hold for any film; the others are the
-/// film's.
+/// device, the playback or, while touching, the contact, and hold for any film.
 enum class NoForceReason {
   kNone,  ///< there is a force
   kDeviceLost,
@@ -64,13 +63,12 @@ std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept;
 /// The reason in the video, for one frame that was analysed for `motion`, with the rendered wrench.
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
 
-/// The reason in a haptic track, where its largest force is `wrench`. `loop` is nothing while no
-/// device is open.
+/// The reason in a haptic track, where its largest force is `wrench`. Without a device, `loop` is
+/// nothing.
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
 
 /// A reason of the device or of the playback, which holds for any video; kNone when there is none.
-/// A device that is off because no force was wanted for minutes is no reason: it wakes with the
-/// force.
+/// A device that is off because no force was wanted is no reason: it wakes with the force.
 NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted);
 
 /// Stores the latest frames and finds why there was no force in the last second. Not thread-safe.
@@ -78,8 +76,7 @@ NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted);
 class NoForceHistory {
  public:
   static constexpr int64_t kWindow_ns = 1'000'000'000;
-  /// Older frames are dropped. The capacity is a second at 60 frames/s and 16 s of frames that wait
-  /// to be shown.
+  /// Older frames are dropped. The capacity is a second at 60 frames/s and 16 s of waiting frames.
   static constexpr size_t kFrames = 1024;
 
   /// Adds a frame that is shown at `shown_ns`, with the magnitude of its force. Earlier added

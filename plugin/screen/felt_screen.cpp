@@ -28,8 +28,7 @@ std::string text_in(const GstStructure* structure, const char* name) {
 
 FeltScreen::FeltScreen(View& view, const std::vector<std::string>& properties)
     : view_(view),
-      // The newest picture counts. Where spidarmotion accepts its format, the conversion costs
-      // nothing.
+      // The newest picture counts. Where spidarmotion accepts its format, nothing is converted.
       pipeline_(follow::parse_pipeline(
           "queue name=newest leaky=downstream max-size-buffers=1 max-size-bytes=0 max-size-time=0 "
           "! videoconvert ! spidarmotion name=felt ! fakesink sync=false")) {

@@ -23,8 +23,7 @@ class FeltScreen {
   FeltScreen(const FeltScreen&) = delete;
   FeltScreen& operator=(const FeltScreen&) = delete;
 
-  /// Prints what has changed. Call this a few times a second. Returns false when the view has
-  /// ended.
+  /// Prints changes. Call this a few times a second. Returns false when the view has ended.
   bool check();
 
  private:

@@ -19,8 +19,7 @@ bool read_variant(GVariant* value, const char* format, To... to) {
   return true;
 }
 
-/// The answer to a Request: its status and an "a{sv}" of results; no results if it has another
-/// form.
+/// The answer to a Request: its status and an "a{sv}" of results, or none in another form.
 struct PortalAnswer {
   static constexpr guint kAllowed = 0, kCancelled = 1;
 

@@ -19,8 +19,7 @@ class View {
   virtual std::string name() const = 0;
   /// A new element, whose pictures are live.
   virtual Ref<GstElement> make_source() = 0;
-  /// What has changed since the last call, in a sentence; empty: nothing. Called a few times a
-  /// second.
+  /// What has changed since the last call, a sentence; empty: nothing. Called a few times a second.
   virtual std::string change() = 0;
   /// Whether its pictures come; until then they tell nothing about a film.
   virtual bool is_shown() const { return true; }
@@ -29,8 +28,8 @@ class View {
 };
 
 /// `what` is the title of a window or a part of the title, "ask" for a click on a window, or empty
-/// for the whole screen. Waits for that click. Throws std::runtime_error, which says what is wrong
-/// and what helps.
+/// for the whole screen. Waits for that click. Throws std::runtime_error with what is wrong and
+/// what helps.
 std::unique_ptr<View> view_of_x11(const std::string& what);
 
 /// A program of X11 or Wayland that the user chooses in a dialog of the desktop: again if

@@ -50,8 +50,7 @@ struct PacedTime {
   bool in_place = false;   ///< replaces the previous frame, which has the same time
 };
 
-/// Follows the timestamps of one stream, and decides which frames can be analysed. Streaming
-/// thread.
+/// Follows the timestamps of a stream, and decides which frames can be analysed. Streaming thread.
 class FramePacer {
  public:
   enum class Order {
@@ -65,8 +64,7 @@ class FramePacer {
   /// `rate_multiplier` is InstantRate::multiplier().
   PacedTime at(int64_t running_ns, double rate_multiplier) const;
 
-  /// Tells that a frame was analysed; `moved` says that a motion since the previous frame was
-  /// measured.
+  /// Tells that a frame was analysed; `moved`: with a motion since the previous frame.
   void push(const PacedTime& time, bool moved);
   /// Tells that a frame without a picture has passed.
   void advance(const PacedTime& time);

@@ -9,8 +9,7 @@
 
 namespace spidar {
 
-/// Running times beyond 73 years are invalid: sums and differences of a few valid ones fit an
-/// int64_t.
+/// Running times beyond 73 years are invalid, so that sums of a few valid ones fit an int64_t.
 constexpr gint64 kLatest_ns = gint64{1} << 61;
 
 inline bool is_time(GstClockTime running_time) {

@@ -33,8 +33,7 @@ class PresentationDelay {
   PresentationDelay& operator=(const PresentationDelay&) = delete;
 
   /// Searches downstream of `element`, through bins, for the first sink that waits for the clock,
-  /// and keeps the path to that sink until reset(). Call this again whenever the sink may have
-  /// changed.
+  /// and keeps the path to that sink until reset(). Call this again when the sink may have changed.
   void follow(GstElement* element);
   void reset();
 

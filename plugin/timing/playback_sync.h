@@ -38,8 +38,7 @@ class PlaybackSync {
 
   /// Tells that running time has begun anew (flushing seek): the element's base time is outdated
   /// until the pipeline has prerolled and distributes another one. Until then nothing is on the
-  /// screen. A sink that does not preroll keeps its base time, which counts again after three
-  /// seconds.
+  /// screen. A sink that does not preroll keeps its base time, which counts again after 3 s.
   void expect_base_time(GstElement* element) {
     constexpr int64_t kPatience_ns = 3'000'000'000;
     outdated_base_time_ = gst_element_get_base_time(element);

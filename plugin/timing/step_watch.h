@@ -14,8 +14,7 @@ namespace spidar {
 
 /// Watches steps of the sink (GST_EVENT_STEP). A sink that steps over frames with a flush shows
 /// later frames that much earlier: it moves its own segment, and no element upstream is informed.
-/// The only sign is the message to the application (STEP_DONE), so this class listens to the
-/// pipeline's bus.
+/// The only sign is the message STEP_DONE, so this class listens to the pipeline's bus.
 class StepWatch {
  public:
   /// Calls `skipped` with the running time that a sink behind `element` has skipped, in the thread

@@ -22,8 +22,7 @@ namespace spidar::tools {
 namespace {
 
 /// Encoders of constant quality, with which pictures of any size look alike: H.264 with a quantizer
-/// between 20 and 26 hardly differs from its source. These are the fastest settings that achieve
-/// that.
+/// between 20 and 26 hardly differs from its source. These are the fastest such settings.
 constexpr Encoder kVideo[] = {
     {"x264enc", "x264enc speed-preset=veryfast pass=qual quantizer=22"},
     {"openh264enc", "openh264enc name=encoder rate-control=off complexity=low ! h264parse"},
@@ -100,16 +99,15 @@ class QuietEnd {
   int errors_ = -1;  ///< the standard error while it is discarded, else −1
 };
 
-/// Pictures and sound that all browsers decode, in MP4 and in WebM: H.264 only with 8 bits and
-/// 4:2:0.
+/// What all browsers decode, in MP4 and in WebM: H.264 only with 8 bits and 4:2:0.
 constexpr const char* kPlayed =
     "video/x-h264,profile=(string){constrained-baseline,baseline,main,high,constrained-high,"
     "progressive-high}; "
     "audio/mpeg,mpegversion=(int){2,4}; audio/mpeg,mpegversion=(int)1,layer=(int)3; audio/x-opus; "
     "audio/x-vorbis";
 constexpr const char* kPlayedInWebm = "video/x-vp8; video/x-vp9,profile=(string)0";
-/// Safari decodes AV1 where the device does (from the iPhone 15 Pro and the M3 on), and VP8 and VP9
-/// in WebM only.
+/// Safari decodes AV1 where the device does (iPhone 15 Pro, M3 and later), VP8 and VP9 in WebM
+/// only.
 constexpr const char* kMostlyPlayed = "video/x-av1; video/x-vp8; video/x-vp9,profile=(string)0";
 
 constexpr size_t kHead_bytes = 64;

@@ -32,8 +32,7 @@ std::string base64(const std::string& bytes);
 
 class FilmPage {
  public:
-  /// The curves of a page become coarser until the page is smaller than this, which mail and chat
-  /// accept.
+  /// The curves become coarser until the page is smaller than this, which mail and chat accept.
   static constexpr size_t kMax_bytes = 100'000;
 
   /// Adds the next millisecond of the track. Values that are not finite count as 0.
@@ -46,8 +45,7 @@ class FilmPage {
   /// Returns a page for browsers that plays a film with its force. `url` is the address of the
   /// film, relative to the page, `name` its name for people, `type` its MIME type. The film shows
   /// its pictures `later_s` seconds later than the track says. `unplayed` is why_no_browser().
-  /// `tolerance_N` becomes the largest difference between the shown force and the track's along an
-  /// axis.
+  /// `tolerance_N` becomes the largest error of the shown force along an axis.
   std::string html(const std::string& url, const std::string& name, const std::string& type,
                    double later_s, const std::string& unplayed, double& tolerance_N) const;
 

@@ -19,8 +19,7 @@ namespace {
 constexpr auto kFlow =
     static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_BUFFER | GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM);
 
-/// Returns "H.265 (Main Profile) decoder", if the message says that this decoder for pictures is
-/// missing.
+/// Returns "H.265 (Main Profile) decoder", if the message says that this decoder is missing.
 std::string missing_decoder(const GstStructure* message) {
   const GstCaps* caps = nullptr;
   const GValue* const detail = gst_structure_get_value(message, "detail");
@@ -124,8 +123,7 @@ std::string FilmWatch::why_ended(const std::string& error) const {
     return missing_.empty() ? "there is no video in it" + why_no_video_
                             : "its video cannot be decoded: install a " + missing_;
   }
-  // The warning of an element explains the error that follows from it: "Internal data stream
-  // error".
+  // An element's warning explains the error that follows: "Internal data stream error".
   if (!warning_.empty()) return warning_;
   if (unmeasured_) {
     const bool is_time = remark_.find("timestamp") != std::string::npos;

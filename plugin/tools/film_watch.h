@@ -54,8 +54,7 @@ class FilmWatch {
   FilmWatch(const FilmWatch&) = delete;
   FilmWatch& operator=(const FilmWatch&) = delete;
 
-  /// `pipeline` reads `film`, and has a decodebin "decode", whose video goes to the element
-  /// "convert".
+  /// `pipeline` reads `film`, and has a decodebin "decode" with its video linked to "convert".
   void begin(GstElement* pipeline, const std::string& film);
 
   /// Plays the film to its end. Throws std::runtime_error with what is wrong with the film.
@@ -66,8 +65,7 @@ class FilmWatch {
   std::string why_ended(const std::string& error) const;
   /// A remark on the track of a film that is whole; usually empty.
   const std::string& remark() const { return remark_; }
-  /// Sentences that say what fraction of the frames is felt, and the commonest reason for the
-  /// others.
+  /// Sentences: what fraction of the frames is felt, and the commonest reason for the others.
   std::string felt() const;
 
  private:

@@ -27,8 +27,7 @@ const char* first_installed(const Encoder (&encoders)[kCount]) {
 }
 
 /// Keeps every sound and all subtitles of a film that is encoded anew. AAC and MP3 are copied,
-/// other sound becomes AAC; text subtitles stay text, without bold and colours. Outlives the
-/// pipeline.
+/// other sound becomes AAC; text subtitles stay text, without styles. Outlives the pipeline.
 class KeptStreams {
  public:
   KeptStreams() = default;

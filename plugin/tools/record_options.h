@@ -34,8 +34,7 @@ RecordProperties properties_of(const std::string& settings);
 /// Throws UsageError with the right line in place of one that names the track of `film`.
 [[noreturn]] void refuse_output(const std::string& film, const std::string& output);
 
-/// Throws UsageError for a property where a film is expected: `command` is the text before the
-/// dashes.
+/// Throws UsageError for a property in place of a film: `command` is the text before the dashes.
 void expect_no_property(const std::string& film, const std::string& command);
 
 struct RecordOptions {

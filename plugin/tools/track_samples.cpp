@@ -63,8 +63,7 @@ SampleSource SampleFile::samples(double gain) const {
 
 namespace {
 
-/// The sample of `block` at `time_ns`, if it lies at a whole millisecond: such samples are copied
-/// bit by bit.
+/// The sample of `block` at `time_ns`, if it lies at a whole millisecond, for an exact copy.
 std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns) {
   const bool is_whole =
       block.begin_ns % kTrackPeriod_ns == 0 && block.period_ns() == kTrackPeriod_ns;

@@ -33,8 +33,8 @@ class SampleFile {
 
   size_t count() const { return count_; }
   const std::string& path() const { return part_.path(); }
-  /// All samples, multiplied by `gain`. Throws std::runtime_error when they cannot be read. Call
-  /// flush() before.
+  /// All samples, times `gain`. Throws std::runtime_error when they cannot be read. Call flush()
+  /// before.
   SampleSource samples(double gain = 1) const;
 
  private:

@@ -28,14 +28,12 @@ class OpenTrack {
   /// The duration by the header and the last bytes of the file. Nothing when they do not state it,
   /// or when other streams may be longer.
   virtual std::optional<int64_t> duration_ns() const = 0;
-  /// For a track that ends at `end_ns`: returns an empty string, or what is missing at the end of
-  /// the file.
+  /// For a track that ends at `end_ns`: empty, or what is missing at the end of the file.
   virtual std::string missing(int64_t end_ns) const = 0;
   virtual const std::shared_ptr<ReadAhead>& blocks() const = 0;
 
-  /// Returns the next block; false at the end. Times rise. Throws std::runtime_error, which says
-  /// what was wrong, when the file is damaged, the track longer than kLongest_ns, or `stopped` has
-  /// become true.
+  /// Returns the next block; false at the end. Times rise. Throws std::runtime_error when the file
+  /// is damaged, the track longer than kLongest_ns, or `stopped` has become true.
   virtual bool next(TrackBlock& block) = 0;
   /// Seeks to the position that ReadAhead::await_seek() has returned.
   virtual void seek(int64_t time_ns) = 0;
@@ -49,10 +47,9 @@ class OpenTrack {
 };
 
 /// Opens the haptic track of a file, else its first sound, from any container for which GStreamer
-/// has a decoder. Returns when the first second has been read. Throws std::runtime_error, which
-/// says what was wrong, when there is none, when the sound is not a haptic track
-/// (Input::set_caps()), when the file is damaged or not a regular one, or when `stopped` has become
-/// true.
+/// has a decoder. Returns when the first second has been read. Throws std::runtime_error when there
+/// is none, when the sound is not a haptic track (Input::set_caps()), when the file is damaged or
+/// not a regular one, or when `stopped` has become true.
 std::unique_ptr<OpenTrack> open_track(const std::string& path,
                                       const std::atomic<bool>* stopped = nullptr);
 

@@ -33,8 +33,7 @@ class ReadAhead {
   // --- the thread that reads
 
   /// Waits until the queue has space and adds the block. Blocks before the sought position, and
-  /// those whose times do not rise, are left out. Returns false when nothing more of this pass is
-  /// wanted.
+  /// those whose times do not rise, are left out. Returns false when this pass has ended.
   bool put(const TrackBlock& block, const tracks::Faults& faults);
   /// Tells that the file ends here, with an `error` if it should not. Ignored when nothing more of
   /// this pass is wanted.
@@ -54,8 +53,8 @@ class ReadAhead {
     kLate  ///< the block has not been read yet
   };
 
-  /// Tells that the film shows everything `later_ns` later than the file says. Call this before the
-  /// first take().
+  /// The film shows everything `later_ns` later than the file says. Call this before the first
+  /// take().
   void set_later(int64_t later_ns);
   /// Seeks: the next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);

@@ -27,8 +27,7 @@ extern const char* const kTrackPathVariable;
 
 /// Returns `.haptic.flac`, `.haptic.mka` or `.haptic.wav` beside the film, see find_beside(); else
 /// in the folders of kTrackPathVariable, else in that of the user,
-/// ~/.local/share/gst-spidar/tracks: in the subfolder of the film, if there is one. Empty when
-/// there is none.
+/// ~/.local/share/gst-spidar/tracks: in the subfolder of the film, if it has one. Empty if none.
 std::string find_sidecar(const std::string& film);
 
 /// Returns an empty text, or a sentence about the track that find_sidecar() finds in place of
@@ -50,8 +49,7 @@ struct FilmMatch {
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
 /// For a film that is not a file: returns an empty string, or why a track that lasts `track_ns` is
-/// not that of the film that comes to `pad`: a film of known duration lasts as long, within one
-/// frame.
+/// not that of the film that comes to `pad`: its duration, if known, must agree within a frame.
 std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

@@ -254,8 +254,7 @@ static gboolean gst_spidar_extract_wrench_query(GstPad* pad, GstObject* parent, 
   return TRUE;
 }
 
-/// The decoder must not drop frames because samples are late, nor renegotiate because of the caps
-/// of the samples.
+/// The decoder must not drop frames because samples are late, nor renegotiate for their caps.
 static gboolean gst_spidar_extract_wrench_event(GstPad* pad, GstObject* parent, GstEvent* event) {
   if (GST_EVENT_TYPE(event) == GST_EVENT_QOS || GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     gst_event_unref(event);

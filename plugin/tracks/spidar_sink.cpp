@@ -243,8 +243,7 @@ static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
   return TRUE;
 }
 
-/// Samples are forwarded to the loop ahead of their time, so render() waits instead of the base
-/// class.
+/// Samples reach the loop ahead of their time, so render() waits instead of the base class.
 static void gst_spidar_sink_get_times(GstBaseSink*, GstBuffer*, GstClockTime* start,
                                       GstClockTime* end) {
   *start = *end = GST_CLOCK_TIME_NONE;
@@ -304,8 +303,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
     case GST_EVENT_FLUSH_STOP: {
       gboolean reset_time;
       gst_event_parse_flush_stop(event, &reset_time);
-      // The loop may have received a buffer that was in progress when the flush began, so it is
-      // cleared again.
+      // A buffer that was in progress when the flush began may have reached the loop.
       self->state->queue.clear();
       self->state->input.reset();
       if (reset_time) self->state->output.follower().expect_base_time();

@@ -45,8 +45,7 @@ class Loader {
   /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track inside
   /// it. Nothing when `wanted` is empty. Stops reading the previous track.
   void begin(const std::string& wanted, const std::string& film);
-  /// Returns when it is known whether the track can be used, when `limit` has passed, or when
-  /// interrupted.
+  /// Returns when the track is open or has failed, when `limit` has passed, or when interrupted.
   void await(std::chrono::milliseconds limit);
   /// Returns the opened track, once; nothing before. The thread continues to read until stop().
   std::optional<LoadedTrack> take();
@@ -57,8 +56,7 @@ class Loader {
 
   // --- while no streaming thread runs
 
-  /// Ends reading. If the system does not return from reading, the thread is left behind, and ends
-  /// when it does.
+  /// Ends reading. A thread that waits for the system is left behind, and ends later.
   void stop();
 
  private:

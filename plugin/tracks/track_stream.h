@@ -77,8 +77,7 @@ class Stream {
   bool negotiate();
   int64_t running_ns(guint64 time) const;
   void begin_at(int64_t time_ns);
-  /// Whether a frame comes so late that its time stamp may be wrong, unless the next one is near
-  /// it.
+  /// Whether a frame is so late that its time stamp may be wrong, unless the next is near it.
   bool is_alone(int64_t time_ns);
   /// Pushes everything up to the end of the last frame, or to `until_ns`, which may be later.
   GstFlowReturn settle(int64_t until_ns);

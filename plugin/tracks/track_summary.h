@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Statistics of a track, and how fast it changes: no motion in a film is faster than 30 Hz, and
-/// most sound is.
+/// Statistics of a track, and how fast it changes: most sound is faster than 30 Hz, no motion is.
 #pragma once
 
 #include <array>

@@ -10,8 +10,7 @@
 
 namespace spidar::tracks {
 
-/// Warns about a haptic track that is felt, but not as it should be, once per stream. Streaming
-/// thread.
+/// Warns about faults of a haptic track that is felt, once per stream. Streaming thread.
 class Warnings {
  public:
   explicit Warnings(GstElement* element) : element_(element) {}

@@ -35,8 +35,7 @@ class Source {
   virtual void play(bool plays) = 0;
   /// Does nothing where the player cannot seek, as in live video.
   virtual void seek(int64_t to_ns) = 0;
-  /// Tells that the window cannot be opened, or has failed: `what` says what happened, `advice`
-  /// what to do.
+  /// The window cannot be opened, or has failed: `what` says what happened, `advice` what to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
   /// Tells that the window is closed, but not by close().
   virtual void closed() = 0;
@@ -58,8 +57,7 @@ class Window {
 
   /// Whether give() has a free slot for a picture.
   bool wants_frame() const;
-  /// Copies the frame. Returns false when the frame is left out because the window is slow or there
-  /// is no memory.
+  /// Copies the frame. Returns false when the window is too slow for it or there is no memory.
   bool give(const GstVideoFrame& frame, DrawnFrame report);
 
   // --- any thread

@@ -41,8 +41,7 @@ To same(const From& from) {
   return to;
 }
 
-/// Writes `text` as snprintf() does, but never half a character of UTF-8. Returns the length of the
-/// text.
+/// Writes `text` as snprintf() does, but never half a character of UTF-8. Returns its length.
 size_t write_text(const std::string& text, char* to, size_t size) noexcept {
   if (size == 0) return text.size();
   size_t length = std::min(size - 1, text.size());

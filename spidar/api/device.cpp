@@ -61,8 +61,7 @@ spidar::PlaybackClock now_is_now() {
 /// Whether this thread is in a callback of any device: two callbacks could wait for each other.
 thread_local bool calls_back = false;
 
-/// The haptic thread must not wait: a call that waits for the callback to end would wait for
-/// itself.
+/// The haptic thread must not wait: waiting for the end of the callback, it would wait for itself.
 void require_no_callback() {
   if (calls_back) {
     throw std::logic_error(

@@ -88,8 +88,7 @@ void TouchedSurface::clear() noexcept {
   if (spidar::touch::Mailbox* const mailbox = connected_) mailbox->clear();
 }
 
-/// The loop frees the slots of former surfaces in its next tick, unless the device is lost
-/// meanwhile.
+/// The loop frees the slots of former surfaces in its next tick, unless the device is lost.
 spidar::touch::Surface* TouchedSurface::free_slot() noexcept {
   constexpr int kTicks = 20;
   for (int i = 0; i < kTicks; ++i) {

@@ -30,8 +30,7 @@ constexpr Eigen::Index kLastParts = 10;
 
 /// Estimates the standard deviation of one length from the norms of the samples' errors, up to half
 /// of which may be arbitrary. The norm of a good sample is σ times the root of χ² with `redundant`
-/// degrees of freedom, one or two. `parameters` were fitted to all samples. Returns at least
-/// `floor_m`.
+/// degrees of freedom, one or two. `parameters` were fitted. Returns at least `floor_m`.
 double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, double floor_m) {
   const double errors = redundant * static_cast<double>(norms_m.size());
   if (errors <= parameters) return floor_m;
@@ -157,8 +156,7 @@ bool contradicts(const Fit& fit, const Eigen::ArrayXd& outliers) {
 
 Result calibrate(const Profile& profile, const CountSamples& counts, const Settings& settings) {
   check_samples(profile, counts, kMinStrings);
-  // The first fit estimates only the offsets: a hand misses the centre by more than exits and scale
-  // are off.
+  // The first fit estimates only the offsets, which are off by more than exits and scale.
   const Model offsets_only(profile, {});
   const std::vector<StringVector> lengths_m = distinct_lengths_m(offsets_only, counts);
   const double rounding_m = rounding_sd_m(

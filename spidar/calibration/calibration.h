@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Determines the lengths of the strings at zero count, because encoders are incremental and boards
-/// have no homing.
+/// Determines the lengths of the strings at zero count: encoders are incremental, without homing.
 #pragma once
 
 #include <array>
@@ -14,8 +13,7 @@
 
 namespace spidar::calibration {
 
-/// Encoder counts as read from the board: one row per sample in the order of time, one column per
-/// string.
+/// Encoder counts as read from the board: one row per sample in time, one column per string.
 using CountSamples = Eigen::MatrixXd;
 
 /// The parameters that are estimated in addition to the offsets.
@@ -37,8 +35,8 @@ struct Result {
   Status status = Status::kContradiction;
   Settings estimated;  ///< the parameters that were estimated in addition to the offsets
 
-  /// Length at zero count minus length at the centre, as in StringDrive::home_offset_m, for the
-  /// exits below.
+  /// Length at zero count minus length at the centre (StringDrive::home_offset_m) for the exits
+  /// below.
   StringVector home_offset_m = StringVector::Zero();
   double scale = 1;  ///< factor on every metres_per_count
   /// Exits in D. Free exits neither shift nor turn as a whole relative to the profile's exits,
@@ -86,8 +84,7 @@ Result calibrate_at_centre(const Profile& profile, const CountSamples& counts);
 inline constexpr double kMaxHeldRange_m = 3e-3;
 
 /// Returns the profile with the result, its residual and provenance. `how` describes the
-/// provenance, for example "moved for 20 s". Throws std::invalid_argument unless the status is
-/// kSolved.
+/// provenance: "moved for 20 s". Throws std::invalid_argument unless kSolved.
 Profile calibrated_profile(const Profile& profile, const Result& result, const std::string& how);
 
 }  // namespace spidar::calibration

@@ -14,8 +14,7 @@
 namespace spidar::calibration {
 namespace {
 
-/// Displacements of all exits, stacked, that are orthogonal to shifts and small rotations of the
-/// frame.
+/// Displacements of all exits, stacked, orthogonal to shifts and small rotations of the frame.
 Eigen::MatrixXd shape_changes(const StringGeometry& geometry) {
   const int rows = 3 * geometry.count;
   Eigen::MatrixXd rigid(6, rows);

@@ -66,8 +66,8 @@ struct Bundle {
 void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, double sigma_m,
             int max_iterations, Bundle& bundle);
 
-/// √5.99: 5 % of the good samples exceed this norm, whose square is χ² with two degrees of freedom
-/// in units of σ².
+/// √5.99: 5 % of good samples exceed this norm, whose square / σ² is χ² with two degrees of
+/// freedom.
 inline constexpr double kHuber = 2.448;
 
 /// Returns a starting bundle, which assumes that the first sample is at the centre and follows the

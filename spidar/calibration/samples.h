@@ -22,8 +22,7 @@ namespace spidar::calibration {
 void check_samples(const Profile& profile, const CountSamples& counts, int min_strings);
 
 /// Standard deviation of a rounded length, as the mean of all strings, when `averaged` samples are
-/// averaged. Rounding errors of up to four samples count as independent, because the grip moves in
-/// between.
+/// averaged. Rounding errors of up to four samples count as independent.
 double rounding_sd_m(const Profile& profile, double averaged);
 
 /// Returns the change of the lengths since zero count. Successive samples that agree to a third of
@@ -48,8 +47,7 @@ CountSamples record_counts(StringDevice& device, const Profile& profile, double 
 
 /// A hand that moves and rotates in all six directions at once, with incommensurable periods of
 /// about two to four seconds: by up to 0.4 of the frame's half-width and 0.45 rad in each
-/// direction. The grip is at the centre up to `time_s` = 0. Another `phase_rad` gives another
-/// motion.
+/// direction. The grip is at the centre up to `time_s` = 0. `phase_rad` varies the motion.
 inline Pose hand_in_motion(const StringGeometry& geometry, double time_s, double phase_rad = 0) {
   constexpr double kFraction = 0.4, kTurn_rad = 0.45, kFadeIn_s = 1.0;
   constexpr double kRate_Hz[6] = {0.437, 0.361, 0.281, 0.251, 0.319, 0.397};

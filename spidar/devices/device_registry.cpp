@@ -32,8 +32,7 @@ std::vector<DeviceKind> all_kinds() {
 }  // namespace
 
 const std::vector<DeviceKind>& devices() {
-  // The list is never destroyed: when a player exits, another thread may still be reopening its
-  // board.
+  // The list is never destroyed: when a player exits, a thread may still be reopening its board.
   static const auto& kinds = *new std::vector<DeviceKind>(all_kinds());
   return kinds;
 }

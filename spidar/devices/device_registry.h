@@ -29,8 +29,7 @@ struct DeviceName {
 /// Returns the kinds that `device`, the part of a name before the colon, may mean.
 std::vector<const DeviceKind*> kinds_called(const std::string& device);
 
-/// Returns the kind that a name like "sim:sh4" simulates; null if there is no such board, and for
-/// "sim".
+/// Returns the kind that a name like "sim:sh4" simulates; null for other names, and for "sim".
 const DeviceKind* simulated_kind(const DeviceName& name);
 
 /// Returns the driver of a board with its emulation behind it, which needs neither a thread nor a

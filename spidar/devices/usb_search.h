@@ -19,8 +19,7 @@ namespace spidar {
 int rotary_of(const std::string& id);
 
 /// Finds a board on USB again at every opening, because the address changes when a device is
-/// plugged in again. Later openings find the device of the first one, on any port if it has a
-/// serial number.
+/// plugged in again. Later openings find the first device, on any port if it has a serial number.
 class UsbSearch {
  public:
   struct Candidate {

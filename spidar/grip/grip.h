@@ -38,8 +38,7 @@ struct GripAbilities {
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
-  /// The largest force limit: what the grip exerts, and at least the default, which all devices
-  /// accept.
+  /// The largest force limit: what the grip exerts, and at least the default.
   double max_limit_N() const noexcept { return std::max(kDefaultForce_N, largest_force_N); }
 };
 

@@ -42,8 +42,7 @@ class GripMotion {
   /// Half a tick, which is the lag of the difference, and the time constant of the low-pass.
   static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
-  /// Tells that the grip was at `pose` at `at_ns`. A time that is not later than the last one is
-  /// ignored.
+  /// Tells that the grip was at `pose` at `at_ns`. Ignored unless later than the last time.
   void update(const Pose& pose, int64_t at_ns) noexcept {
     if (!poses_.empty()) {
       const double dt_s = 1e-9 * static_cast<double>(at_ns - poses_[0].at_ns);
@@ -77,8 +76,7 @@ class GripMotion {
             (turn * pose.orientation).normalized()};
   }
 
-  /// Returns the velocity `ahead_s` after the newest pose, with the acceleration that the poses
-  /// show.
+  /// Returns the velocity `ahead_s` after the newest pose, with the acceleration of the poses.
   GripVelocity velocity_in(double ahead_s) const noexcept {
     // The normal equations of way = c + a t + b h: h is t²/2, and way is the distance of a pose
     // from where velocity_ would have led. Subtracting the means below eliminates c.
@@ -128,8 +126,7 @@ class GripMotion {
   /// Two encoder steps, or what a hand at 0.5 m/s moves in 0.1 ms, the error of a reading's time.
   static constexpr double kPoseError_m = 50e-6;
   /// The largest acceleration, of 3 N on kLightestGrip_kg, which limits how far the velocity
-  /// departs from velocity() within its lag. The limit of rotations follows from the radius of a
-  /// grip.
+  /// departs from velocity() within its lag. Rotations have that limit at the grip's radius.
   static constexpr double kMax_m_s2 = 90;
   static constexpr double kMax_m_s = 0.3;
 

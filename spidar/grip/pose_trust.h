@@ -61,15 +61,13 @@ class PoseTrust {
   /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
   static constexpr double kJumpMargin_m = 2e-3;
 
-  /// Returns whether a grip that has moved by `moved_m` since its newest pose was faster than any
-  /// hand.
+  /// Whether a grip that has moved by `moved_m` since its newest pose was faster than any hand.
   bool is_jump(double moved_m, int64_t read_ns) const noexcept {
     const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
     return located_ && moved_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
-  /// Returns when a pose was read in the tick of `now_ns`, if the device says `read_ns`. A time
-  /// that is not of this clock, or older than any trusted pose can be, counts as the time of the
-  /// tick.
+  /// Returns when a pose was read in the tick of `now_ns`, if the device says `read_ns`. A time of
+  /// another clock, or older than any trusted pose, counts as that of the tick.
   static int64_t time_of(int64_t read_ns, int64_t now_ns) noexcept {
     return std::abs(read_ns - now_ns) < kPoseTimeout_ns ? read_ns : now_ns;
   }
@@ -78,8 +76,7 @@ class PoseTrust {
     located_ = true;
     located_ns_ = read_ns;
   }
-  /// Tells that the pose is good. Trust may begin with it only if `may_trust`; existing trust
-  /// stays.
+  /// Tells that the pose is good. Trust begins with it only if `may_trust`; existing trust stays.
   void succeed(bool may_trust) noexcept {
     misses_ = 0;
     good_poses_ = std::min(good_poses_ + 1, kGoodPoses);

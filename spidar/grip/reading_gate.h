@@ -20,8 +20,7 @@ class ReadingGate {
  public:
   using Values = Eigen::Matrix<double, N, 1>;
 
-  /// The acceleration of a grip that a hand holds, or of the lightest one, 34 g, at 10 N. An impact
-  /// exceeds it.
+  /// The acceleration of a held grip, or of the lightest one, 34 g, at 10 N. An impact exceeds it.
   static constexpr double kMax_m_s2 = 300;
   /// The error of the time of a reading: half of an exchange.
   static constexpr double kTimeError_s = 0.3e-3;
@@ -34,15 +33,13 @@ class ReadingGate {
     left_out_ = false;
   }
 
-  /// Returns whether the reading counts. `unreliable` is the index of a value that is not judged;
-  /// −1 if all are.
+  /// Whether the reading counts. `unreliable` is the index of a value that is not judged; −1: none.
   bool take(const Values& now_m, int64_t read_ns, int unreliable = -1) noexcept {
     const bool plausible = is_plausible(now_m, read_ns, unreliable);
     left_out_ = !plausible && !left_out_;
     if (left_out_) return false;
     if (!plausible) taken_.clear();  // the earlier readings do not lead to this one
-    // A reading in a burst after a late tick replaces the one before, because their difference is
-    // mostly error.
+    // A reading in a burst replaces the one before, because their difference is mostly error.
     if (taken_.size() > 1 && read_ns - taken_[1].read_ns < kApart_ns) {
       taken_[0] = {now_m, read_ns};
     } else {

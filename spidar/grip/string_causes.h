@@ -4,8 +4,7 @@
 
 namespace spidar {
 
-/// The possible causes when strings do not answer as they should, the likeliest first: the end of a
-/// sentence.
+/// Causes of wrong answers of strings, the likeliest first, as the end of a sentence.
 constexpr const char* kStringCauses =
     "the motors have no supply (the emergency stop is pressed, or a supply is off); a string is "
     "slack or off its pulley; the grip was not at the centre when the device was opened; the "

@@ -15,8 +15,7 @@ double reach_m(const StringGeometry& geometry) {
   double reach = 0;
   for (int i = 0; i < geometry.count; ++i) {
     const auto k = static_cast<size_t>(i);
-    // With motors inside the grip, the points on the grip enclose the exits instead of the other
-    // way round.
+    // With motors inside the grip, the points on the grip enclose the exits, not vice versa.
     reach = std::max({reach, geometry.exit_m[k].cwiseAbs().maxCoeff(),
                       geometry.grip_m[k].cwiseAbs().maxCoeff()});
   }

@@ -45,13 +45,11 @@ class GripWatch {
   void update(const DeviceReading& reading, const GripCommand& command) noexcept;
   /// Tells that the device did not answer in a tick.
   void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
-  /// Ends trust if the newest pose is too old. Call this before the tensions of a tick are
-  /// computed.
+  /// Ends trust if the newest pose is too old. Call this before computing the tensions of a tick.
   void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
 
   bool trusted() const noexcept { return trust_.trusted(); }
-  /// Whether a hand could have reached the newest pose, trusted or not: a grip outside the frame
-  /// still moves.
+  /// Whether a hand could have reached the newest pose, trusted or not, even outside the frame.
   bool follows() const noexcept { return follows_; }
   /// Returns kNone while the pose is trusted.
   PoseFault fault() const noexcept { return trust_.fault(); }
@@ -96,7 +94,7 @@ class GripWatch {
 /// the motors, leaves out a string that is slack or broken, and notices dead encoders.
 class StringGrip final : public Grip {
  public:
-  /// `device` outlives the grip. Throws std::invalid_argument when the profile has fewer than six
+  /// `device` outlives the grip. Throws std::invalid_argument for a profile of fewer than 6
   /// strings.
   StringGrip(const Profile& profile, StringDevice& device);
   StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device);

@@ -72,8 +72,7 @@ TensionCommand::TensionCommand(const Profile& profile)
     reach_m_ = std::max(reach_m_, geometry_.grip_m[static_cast<size_t>(i)].norm());
   }
   const double radius_m = profile.geometry.grip_radius_m();
-  // A grip of zero radius cannot transmit torque, so the length that weights torque does not
-  // matter.
+  // A grip of zero radius transmits no torque, so the length that weights torque does not matter.
   if (radius_m > 0) problem_.torque_length_m = radius_m;
   reset();
 }

@@ -81,8 +81,7 @@ class TensionSlew {
   explicit TensionSlew(const Profile& profile) { reset(profile); }
 
   /// All strings make the same fraction of their step, so that no bound is exceeded and the wrench
-  /// lies between the previous and the wanted one. A tension that is not a number counts as the
-  /// minimum.
+  /// lies between the previous and the wanted one. NaN counts as the minimum.
   StringVector apply(const StringVector& tension_N, const Profile& profile, double dt_s) noexcept;
 
   /// Starts at rest, where every string has its minimum tension.
@@ -95,8 +94,7 @@ class TensionSlew {
   StringVector last_N_;
 };
 
-/// Limits tensions to the range from zero to each string's largest. A tension that is not a number
-/// becomes zero.
+/// Limits tensions to the range from zero to each string's largest. NaN becomes zero.
 StringVector bound_tensions(const StringVector& tension_N, const Profile& profile) noexcept;
 
 /// Converts tensions to D/A volts with newtons_per_volt and motor_sign, clamped to the D/A range.
@@ -152,8 +150,7 @@ class TensionCommand {
 
   /// For a tick without a wanted wrench or a known pose: takes `wrench`, which is ramping to zero,
   /// as a fraction of the wrench of the last solve(), and returns the tensions to rest by the same
-  /// fraction, without W. With a `pace` of 4, they are at rest when a quarter of the wrench is
-  /// gone.
+  /// fraction, without W. With a `pace` of 4, they are at rest after a quarter of the ramp.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
   /// Call this before fade(): after a solve(), the fade begins at the present tensions. A tension
   /// that has not reached the solution yet would rise otherwise.

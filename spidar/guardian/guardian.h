@@ -41,8 +41,7 @@ struct LastWill {
   std::array<uint32_t, kMaxPackets> length{};
   std::array<std::array<uint8_t, kMaxLength>, kMaxPackets> packet{};
   /// For an input device: the events that restore its settings from before it was driven, one every
-  /// kSetting_ms. The guardian sends them after the packets when the host has ended and the motors
-  /// had pulled.
+  /// kSetting_ms. The guardian sends them last if the host has ended and the motors had pulled.
   std::array<InputEvent, kMaxSettings> setting{};
   /// The device's file, open, and claimed or locked. The guardian receives a descriptor of the same
   /// open file, so that the host's claim is also valid for the guardian. The descriptor has a
@@ -63,8 +62,8 @@ static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// kSilence_ms, and otherwise at the host's next turn.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
-/// The duration of every effect of an input device, so that no effect outlasts a program that hangs
-/// or is stopped.
+/// The duration of an input device's effects, which must not outlast a program that hangs or is
+/// stopped.
 constexpr int kEffect_ms = 150;
 constexpr int kSilence_ms = 50;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -97,8 +96,7 @@ enum class GuardianWord : char {
 /// inherited its files, and when motors pull and watch() was not called for kSilence_ms. When this
 /// process has ended, the guardian also restores the settings of an input device.
 ///
-/// One thread at a time. In a forked child of the process that created it, this object does
-/// nothing.
+/// One thread at a time. In a forked child, this object does nothing.
 class Guardian {
  public:
   /// Starts a guardian for the connection. Throws DeviceError when the program is not found or does

@@ -160,8 +160,7 @@ bool carry_out(LastWill& will) {
   return true;
 }
 
-/// Call this at rest: more gain would make a force stronger. A driver that fails gets no more
-/// attempts.
+/// Call this at rest: more gain would make a force stronger. There is only one attempt.
 void return_settings(const LastWill& will) {
   for (uint32_t i = 0; i < will.settings; ++i) {
     if (!send_event(will.file, will.setting[i])) return;
@@ -205,7 +204,7 @@ bool say(GuardianWord word) {
 }
 
 /// Sends the zeros whenever the host is silent while its motors pull. Returns true when the host
-/// has ended, and false when it has dismissed its guardian. `pulled` tells whether the motors ever
+/// has ended, and false when it has dismissed its guardian. `pulled`: whether the motors ever
 /// pulled.
 bool watch(int host, LastWill& will, bool& pulled) {
   bool pulling = false, zeroed = false, failed = false;
@@ -236,8 +235,7 @@ bool watch(int host, LastWill& will, bool& pulled) {
 }
 
 /// The guardian is needed just as much when the machine is busy or short of memory. Where a
-/// privilege is missing, the guardian does without it. Programs that it starts have the usual
-/// priority.
+/// privilege is missing, the guardian does without. Its children have the usual priority.
 void ask_for_promptness() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);

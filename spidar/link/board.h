@@ -33,8 +33,7 @@ struct Settings {
   CountZero count_zero = CountZero::kByProfile;
   /// A separate process sets the motors to zero when this one is killed.
   bool guardian = true;
-  /// A separate thread makes the exchanges. Without it, exchange() blocks until the board has
-  /// answered.
+  /// A separate thread makes the exchanges; otherwise exchange() blocks until the board answers.
   bool threaded = true;
 };
 

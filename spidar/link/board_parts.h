@@ -49,8 +49,7 @@ inline std::vector<LastWill> wills(const Transport& transport,
   return {*will};
 }
 
-/// Returns the deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: 0.1 s
-/// from now.
+/// The deadline for a board's answer outside the ticks of the loop, CLOCK_MONOTONIC: in 0.1 s.
 inline int64_t soon_ns() noexcept {
   return monotonic_now_ns() + kSecond_ns / 10;
 }

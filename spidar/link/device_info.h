@@ -21,8 +21,7 @@ struct DeviceInfo {
   /// motors of the board get no force until the user names a profile (see profile_choice.h).
   std::string profile;
   std::string memory_error;  ///< why confirmed profiles cannot be read; may be empty
-  /// Profile::board of fitting profiles: "usb-sh4"; empty when unknown, or when the device has no
-  /// strings.
+  /// Profile::board of fitting profiles: "usb-sh4"; empty if unknown or without strings.
   std::string profile_board;
   bool has_strings = true;  ///< otherwise the device takes a force, and has no encoders
   bool directional = true;  ///< otherwise the device renders only the strength of the force

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Emulated boards, which answer as their published descriptions say, and the transport to an
-/// emulated board.
+/// Emulated boards, which answer as their published descriptions say, and the transport to them.
 #pragma once
 
 #include <algorithm>
@@ -19,8 +18,7 @@
 
 namespace spidar::emulated {
 
-/// The device that is connected to an emulated board. This base class has neither motors nor
-/// encoders.
+/// The device behind an emulated board. This base class has neither motors nor encoders.
 class Motors {
  public:
   virtual ~Motors() = default;
@@ -45,7 +43,7 @@ class Board {
   virtual ~Board() = default;
   /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
-  /// Writes the next due reply and returns its length; 0 when no reply is due or `bytes` is too
+  /// Writes the next due reply and returns its length; 0 when there is none or `bytes` is too
   /// small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
   /// Starts with the given memory and keeps its state there; the memory must outlive the board.
@@ -58,8 +56,7 @@ class Board {
   std::shared_ptr<Motors> motors_;
 };
 
-/// Writes `packet` if it is due, and returns its length; 0 if it is not due, or `bytes` is too
-/// small.
+/// Writes `packet` if it is due, and returns its length; 0 otherwise, or if `bytes` is too small.
 inline size_t copy_out(ByteView packet, MutableBytes bytes, bool& due) noexcept {
   if (!due || bytes.size < packet.size) return 0;
   due = false;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Counts of a board whose counters wrap round. The counts continue when the board is closed and
-/// reopened.
+/// Counts of a board whose counters wrap round. They continue when the board is reopened.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +12,7 @@
 
 namespace spidar::boards {
 
-/// Follows up to kMaxStrings counters of `bits` bits, assuming that each counter takes the shorter
-/// way round.
+/// Follows up to kMaxStrings counters of `bits` bits, assuming the shorter way round.
 class CountUnwrapper {
  public:
   /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
@@ -47,7 +45,7 @@ class CountUnwrapper {
   /// nothing when a counter has jumped, or when a loss of power seems to have reset the counters:
   /// they are nearer to zero than to their previous values, which were not near zero themselves. A
   /// grip that a hand moved towards the counters' zero looks the same. Mistaking this for a reset
-  /// costs a new zero; the opposite mistake would keep a wrong zero. Call begin() to accept the new
+  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts the new
   /// values.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const int32_t moved = distance(raw, last_.raw, channels);

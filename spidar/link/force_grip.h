@@ -104,8 +104,7 @@ class ForceGrip final : public Grip {
       reading_.motion.reset();
     }
   }
-  /// Jumps of a stick are no faults: a stick snaps back when a hand releases it, and its driver
-  /// seldom reports.
+  /// Jumps of a stick are no faults: it snaps back when released, and its driver seldom reports.
   PoseFault judge(const ForceReading& answer, int64_t read_ns) const noexcept {
     if (!answer.position_m.allFinite()) return answer.pose_fault;
     const double moved_m = (answer.position_m - reading_.pose.position_m).norm();

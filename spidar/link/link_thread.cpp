@@ -115,8 +115,7 @@ void LinkThread<BoardType>::stop() noexcept {
   stop_ = true;
   sem_post(&requested_);
   // Transfers are cancelled at their deadline, and the kernel ends a request to clear a stalled
-  // pipe after 5 s. Meanwhile this thread no longer answers the guardian, which sets the motors to
-  // zero.
+  // pipe after 5 s. Meanwhile the guardian gets no heartbeat and sets the motors to zero.
   thread_.join();
   Request request;
   Reply reply;
@@ -252,8 +251,7 @@ bool LinkThread<BoardType>::put_out_zero() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
-    // With a counter jump, a strange answer or one answer too many, the board has received the
-    // output.
+    // After a counter jump, a strange answer or a surplus one, the board has received the output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
         fault == LinkFault::kWrongReply || fault == LinkFault::kBabble) {
       return true;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The common part of all open boards: the thread that exchanges, the guardians, and the ramp to
-/// zero.
+/// The common part of open boards: the thread that exchanges, the guardians, the ramp to zero.
 #pragma once
 
 #include <array>
@@ -46,16 +45,14 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
 
   /// Here, CountZero::kByProfile means kFirstOpen; make_grip() resolves it.
   LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
-  /// Takes several boards, of which `open` opens and returns one. If `open` throws, it leaves no
-  /// board open.
+  /// Takes several boards, of which `open` opens and returns one, or none if it throws.
   LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
              const Settings& settings);
   ~LinkThread() override;
 
   void open() override;
   LinkFault exchange(const Output& output, Reading& reading) noexcept override;
-  /// Ramps to zero, then releases the board. Takes kRamp_ms, or longer if the board does not
-  /// answer.
+  /// Ramps to zero, then releases the board, in kRamp_ms or longer if the board does not answer.
   void close() noexcept override;
   std::string description() const override { return open_ ? board_->description() : ""; }
   LinkHealth health() const noexcept override;
@@ -83,8 +80,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
   LinkFault why_unguarded() const noexcept;
-  /// Both functions return true if the motors have received their zeros; bring_to_zero() uses a
-  /// ramp.
+  /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
   bool put_out_zero() noexcept;
   bool bring_to_zero() noexcept;
 

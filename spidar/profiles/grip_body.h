@@ -21,8 +21,7 @@ struct GripBody {
   static constexpr double kBall_m = 0.032;
 
   /// The body of a grip whose strings end at `radius_m` and whose moment of inertia nobody states:
-  /// from that of a solid sphere of the lightest grip's mass to that of the heaviest grip's mass at
-  /// the surface.
+  /// from a solid sphere of the lightest grip's mass to the heaviest grip's mass at the surface.
   static constexpr GripBody inferred(double radius_m) noexcept {
     const double solid_m = std::min(radius_m, kBall_m), surface_m = std::max(radius_m, kBall_m);
     return {0.4 * kLightestGrip_kg * solid_m * solid_m, kHeaviestGrip_kg * surface_m * surface_m,

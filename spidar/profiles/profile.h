@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The description of a device: geometry, motors, encoders, the source of each number, and the
-/// largest force.
+/// The description of a device: geometry, motors, encoders, the source of each number.
 #pragma once
 
 #include <algorithm>
@@ -20,8 +19,7 @@
 
 namespace spidar {
 
-/// A profile cannot be used. what() names file, line and field, what was wrong and what would be
-/// right.
+/// A profile cannot be used. what() names file, line and field, the error and the remedy.
 class ProfileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -109,8 +107,8 @@ struct Profile {
   StringVector min_tension_N() const { return per_string<&StringDrive::min_tension_N>(); }
   StringVector max_tension_N() const { return per_string<&StringDrive::max_tension_N>(); }
   /// The largest residual (root mean square) of a correct pose, for PoseSolver: one step of the
-  /// coarsest encoder. Counts are off by at most half a step; the other half allows for errors of
-  /// the geometry.
+  /// coarsest encoder. Counts are off by half a step at most; the rest allows for errors of the
+  /// geometry.
   double max_pose_residual_m() const {
     return per_string<&StringDrive::metres_per_count>().maxCoeff();
   }
@@ -124,13 +122,12 @@ struct Profile {
   }
 };
 
-/// `name_or_path` is a name of list_profiles(), or a path, which has a '/' or ends in .toml. Throws
+/// Loads a name of list_profiles(), or a path, which has a '/' or ends in .toml. Throws
 /// ProfileError.
 Profile load_profile(const std::string& name_or_path);
 
 /// Returns the profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH
-/// (colon-separated), then the installed files, then those that are built into the library. Sorted,
-/// without ending.
+/// (colon-separated), then the installed files, then those in the library. Sorted, without ending.
 std::vector<std::string> list_profiles();
 
 /// The desktop SPIDAR-G that is most common in public sources.

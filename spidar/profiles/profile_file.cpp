@@ -144,18 +144,16 @@ constexpr double kMinLength_m = 1e-3;
 constexpr double kMin_m_per_count = 1e-6;
 constexpr double kMax_m_per_count = 1e-4;
 constexpr double kMaxDriveLag_s = 0.1;
-// No grip of 300 g within 8 cm has more, and no ball of 1 g and 16 mm less: such a value has a
-// mistaken unit.
+// No grip of 300 g within 8 cm has more, and no ball of 1 g and 16 mm less: the unit is wrong.
 constexpr double kMinInertia_kg_m2 = 1e-7;
 constexpr double kMaxInertia_kg_m2 = 2e-3;
-// Above safety extra-low voltage (IEC 61140, 60 V of direct current) no D/A converter drives an
-// amplifier.
+// No D/A converter exceeds safety extra-low voltage (IEC 61140, 60 V of direct current).
 constexpr double kMaxDac_V = 60;
 // Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
 constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
-// The fewest steps of the D/A converter in the range of a string; the shipped profiles have 280 or
+// The fewest steps of the D/A converter in the range of a string; shipped profiles have 280 or
 // more.
 constexpr double kMinSteps = 16;
 // No string of a hand-held device pulls more; the strongest of the shipped profiles have 20 N.
@@ -167,8 +165,7 @@ constexpr double kMaxRest_N = kDefaultForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
 constexpr double kMinHeating_s = 1;
 constexpr double kMaxHeating_s = 120;
-// The force in the weakest direction for one newton of each string. The shipped profiles have 1.2
-// or more.
+// The force in the weakest direction for one newton of each string. Shipped profiles: 1.2 or more.
 constexpr double kMinReach = 0.1;
 constexpr double kMaxResidual_m = 0.05;
 

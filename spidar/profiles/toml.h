@@ -57,8 +57,7 @@ inline TomlTrap trap_in_toml(std::string_view text) {
       const bool escapes = end[0] == '"' && text[i] == '\\';
       const bool ends = text.substr(i, end.size()) == end;
       i += escapes ? 2 : ends ? end.size() : 1;
-      // A string in triple quotes may end with up to five quotes, of which the last three are its
-      // end.
+      // A string in triple quotes may end with up to five quotes; the last three are its end.
       for (int n = 0; ends && end.size() == 3 && n < 2 && i < text.size() && text[i] == end[0];
            ++n) {
         ++i;

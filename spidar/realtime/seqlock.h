@@ -36,8 +36,7 @@ class Seqlock {
   }
 
   /// Returns false and leaves `value` unchanged while the writer writes. For readers of higher
-  /// priority than the writer: on a single processor, load() would wait forever for a writer that
-  /// cannot run.
+  /// priority: on a single processor, load() would wait forever for the writer.
   bool try_load(T& value) const noexcept {
     std::array<uint64_t, kWords> words;
     const uint64_t before = sequence_.load(std::memory_order_acquire);

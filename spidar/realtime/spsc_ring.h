@@ -24,8 +24,7 @@ class SpscRing {
     return true;
   }
 
-  /// Reader: returns the oldest entry, which stays in the ring until drop(); null when the queue is
-  /// empty.
+  /// Reader: returns the oldest entry, which stays until drop(); null when the queue is empty.
   const T* front() const noexcept {
     const size_t head = head_.load(std::memory_order_relaxed);
     if (head == tail_.load(std::memory_order_acquire)) return nullptr;

@@ -29,8 +29,7 @@ struct LoopTiming {
 /// its watchdogs and migration threads (99).
 constexpr int kRealTimePriority = 80;
 
-/// Requests SCHED_FIFO for the calling thread, with kRealTimePriority or the highest permitted
-/// priority.
+/// Requests SCHED_FIFO for the calling thread, up to kRealTimePriority as far as permitted.
 Scheduling request_real_time();
 
 /// Makes timers of the calling thread fire when they are due. By default, the kernel fires them up
@@ -39,8 +38,7 @@ void request_exact_timers() noexcept;
 
 void request_background() noexcept;
 
-/// During the lifetime of this object, threads that the calling thread starts have all signals
-/// blocked.
+/// While this object lives, threads that the calling thread starts have all signals blocked.
 class SignalsBlocked {
  public:
   SignalsBlocked() noexcept;

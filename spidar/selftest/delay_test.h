@@ -24,8 +24,7 @@ struct DelaySettings {
   static constexpr int kFewestPeriods = 6;
   /// The time in which the force fades at both ends of a period, so that it causes no knock.
   static constexpr double kFade_s = 0.1;
-  /// The time between the fade-in and the measured period, in which the swing of a loosely held
-  /// grip decays.
+  /// The time after the fade-in, in which the swing of a loosely held grip decays.
   static constexpr double kSettle_s = 0.4;
 
   /// The most periods that are tried in order to obtain `periods` usable ones.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the encoders count as a profile says, from moves of the grip by hand. The motors stay at
-/// zero.
+/// Whether the encoders count as a profile says, from moves by hand. The motors stay at zero.
 #pragma once
 
 #include <array>
@@ -13,8 +12,7 @@
 
 namespace spidar::selftest {
 
-/// The counts of the encoders while a hand held the grip at the centre, and then at these
-/// positions.
+/// The counts of the encoders while a hand held the grip at the centre, and at these positions.
 struct HandMoves {
   struct Side {
     const char* name;

@@ -141,8 +141,7 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   DeviceReading reading_;
 };
 
-/// Keeps a grip open during the lifetime of this object, and a force on it. go() switches the force
-/// on.
+/// Keeps a grip open while this object lives, and a force on it. go() switches the force on.
 class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.

@@ -111,8 +111,7 @@ struct LagCandidate {
 };
 
 /// Returns T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T²
-/// − a₀ T³, by Newton's method from a₃ / a₂, the solution without a hand. `by_coefficient` gets its
-/// derivatives.
+/// − a₀ T³, by Newton's method from a₃ / a₂, the solution without a hand; and its derivatives.
 double first_order_part_s(const Eigen::Vector4d& a, Eigen::Vector4d& by_coefficient) {
   double part_s = a[3] / a[2];
   for (int i = 0; i < 20; ++i) {

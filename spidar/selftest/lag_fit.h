@@ -63,8 +63,7 @@ struct ResponseLine {
 };
 
 /// Fourier sums of the force and the motion over one period with a Hann window. The drift of the
-/// hand is not periodic and is large compared with the response; the window reduces its leakage
-/// into the lines.
+/// hand is not periodic and is large compared with the response; the window limits its leakage.
 class PeriodSums {
  public:
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
@@ -110,8 +109,7 @@ struct LagFit {
 
 /// A longer lag is not reported: no surface should be touched with it.
 constexpr double kLongestLag_s = 0.03;
-/// The largest half-width of a usable interval: the larger of this time and this fraction of the
-/// lag.
+/// The largest half-width of a usable interval: this time or this fraction of the lag.
 constexpr double kVagueLag_s = 0.001;
 constexpr double kVagueLagFraction = 0.15;
 

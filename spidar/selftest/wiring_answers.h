@@ -28,8 +28,7 @@ struct WiringSettings {
   double average_s = 0.1;
   /// Tries a motor that does nothing with the other sign, on boards with negative volts.
   bool try_reversed = false;
-  /// If not null, receives each motor after its pull. The capacity is enough for the pulls of all
-  /// tries.
+  /// If not null, receives each motor after its pull, with a capacity for all tries.
   SpscRing<PulledMotor, 64>* pulled = nullptr;
 };
 
@@ -58,8 +57,7 @@ void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
                const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
                WiringAnswers& answers);
 
-/// The smallest change of length that counts as an answer, m: some counts, above the tremor of a
-/// hand.
+/// The smallest change of length that counts as an answer, m: above the tremor of a hand.
 double smallest_answer_m(const Profile& profile);
 
 }  // namespace spidar::selftest

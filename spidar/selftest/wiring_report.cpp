@@ -13,8 +13,7 @@
 namespace spidar::selftest {
 namespace {
 
-/// How much each assumed fault lowers the score of an explanation, as a fraction of a perfect
-/// correlation.
+/// How much each assumed fault lowers the score of an explanation; a perfect correlation is 1.
 constexpr double kFaultCost = 2e-3;
 /// An answer below this fraction of the median of the strongest answers counts as none.
 constexpr double kSilent = 0.1;
@@ -104,8 +103,7 @@ class Judge {
   /// correlation
   ///   Σⱼ |Σᵢ answer(j, i) expected(encoder j, motor i)| / (‖answer‖ ‖expected‖)
   /// over all encoders j and motors i that are not silent. Each encoder has the sign that fits
-  /// better. Every fault has a small cost, so that the simpler one of two equally good explanations
-  /// is chosen.
+  /// better. Every fault has a small cost, so that the simpler explanation wins.
   Explanation explain(const std::array<int, kMaxStrings>& motor,
                       const std::array<int, kMaxStrings>& encoder) const {
     Explanation e;
@@ -126,8 +124,7 @@ class Judge {
     return e;
   }
 
-  /// The expected answers of encoder j, not reversed, to a pull of each motor; zero for silent
-  /// motors.
+  /// The expected answers of encoder j, not reversed, to each motor; zero for silent motors.
   StringVector expected_answers(const Explanation& e, size_t j) const {
     StringVector expected = StringVector::Zero();
     for (size_t i = 0; i < static_cast<size_t>(count_); ++i) {

@@ -33,8 +33,7 @@ struct WiringReport {
 
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
-  /// Whether the correlation is sufficient, and so is that of each motor's answers, in direction
-  /// and size.
+  /// Whether the correlation, also of each motor's answers, in direction and size, is sufficient.
   bool understood() const noexcept;
   bool as_profile() const noexcept;
   /// Whether a profile can describe the wiring: the wiring differs only in signs, and in strings

@@ -42,8 +42,7 @@ struct AutoDevice {
 /// which it was confirmed or, if there is just one board with strings, to that board. Boards
 /// without a confirmed profile, and boards that were confirmed for another one than `profile`, come
 /// after the others with strings, with `why_not`. Devices on USB that must be named to be used come
-/// last, also with `why_not`. Opens nothing, so a listed device may still be in use, or not be
-/// permitted.
+/// last, also with `why_not`. Opens nothing, so a listed device may be in use or forbidden.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
 /// Whether two profiles are the same by name or, for files, by place.

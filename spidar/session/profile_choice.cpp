@@ -113,8 +113,7 @@ void require_plugged_in(const std::string& device) {
   }
 }
 
-/// Returns the kinds that a board may be of: a CyVerse board that is not plugged in may be of
-/// either.
+/// Returns the kinds that a board may be of: two for a CyVerse board that is not plugged in.
 std::vector<const DeviceKind*> kinds_of(const DeviceInfo& board) {
   if (board.name.empty()) return {};  // no device has this name
   std::vector<const DeviceKind*> kinds = kinds_called(DeviceName(board.device).device);

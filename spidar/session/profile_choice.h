@@ -3,9 +3,8 @@
 /// Which profile drives a device.
 ///
 /// A wrong profile exerts other forces than wanted, and may pull where it should release, because
-/// boards do not report which frame, motors and encoders are connected to them. So the motors of a
-/// board get no force before somebody has named a profile for it, now or once with `spidarctl
-/// choose`.
+/// boards do not report which frame, motors and encoders are connected to them. So a board gets no
+/// force before somebody has named a profile, now or once with `spidarctl choose`.
 #pragma once
 
 #include <filesystem>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The common parts of the commands of spidarctl: the program, the device, and the person at the
-/// terminal.
+/// Common parts of the commands of spidarctl: the program, the device, the person at the terminal.
 #pragma once
 
 #include <future>
@@ -98,8 +97,7 @@ ChosenDevice choose_device(const DeviceOptions& options, Motors motors,
 /// Throws DeviceError when the board has no strings; the message says that `command` needs them.
 void require_strings(const DeviceInfo& board, const std::string& command);
 
-/// Whether the device can output negative volts. Boards with positive volts only refuse such a
-/// profile.
+/// Whether the device can output negative volts; other boards refuse such a profile.
 bool can_reverse(const std::string& device, Profile profile);
 
 /// From now on SIGINT, SIGTERM and SIGHUP only set interrupted(), so that the strings are released
@@ -111,9 +109,8 @@ bool interrupted();
 /// false when interrupted.
 selftest::Pace every_millisecond();
 
-/// Runs `work`, which moves a device, as the haptic loop runs, with real-time priority where
-/// permitted. Returns or throws what `work` does. A guardian allows no pause of more than
-/// kSilence_ms.
+/// Runs `work`, which moves a device, with real-time priority where permitted, because a guardian
+/// allows no pause above kSilence_ms. Returns or throws what `work` does.
 template <typename Work>
 auto in_real_time(const Work& work) {
   std::packaged_task<decltype(work())()> task([&work] {

@@ -37,8 +37,7 @@ int zero(const DeviceOptions& options) {
   return kDone;
 }
 
-/// 5 N is the weight of half a kilogram hanging on a finger. The heat of a motor also grows with
-/// time.
+/// 5 N is the weight of half a kilogram on a finger. The heat of a motor also grows with time.
 constexpr double kMaxPull_N = 5;
 constexpr double kMaxPull_Ns = 5;
 constexpr double kMaxPull_s = 10;

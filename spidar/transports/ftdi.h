@@ -3,8 +3,7 @@
 /// The parts of an FTDI serial chip that a driver needs: a few requests without data, and the
 /// status bytes in front of received data.
 ///
-/// Source: the kernel's drivers/usb/serial/ftdi_sio.h, and libnifalcon, which has the values for
-/// its device.
+/// Source: the kernel's drivers/usb/serial/ftdi_sio.h, and libnifalcon for its values.
 #pragma once
 
 #include <cstddef>

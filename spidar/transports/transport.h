@@ -45,8 +45,7 @@ class Transport {
   ///
   /// The newest state counts: received data is dropped if it arrived before the packets went out,
   /// because it cannot answer them. When such data does not end, or when the exchanges that found
-  /// such data exceed the others by kMostUnasked, the age of an answer is unknown, and the result
-  /// is kBabble.
+  /// such data exceed the others by kMostUnasked, the result is kBabble.
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept {
     if (packets.size() == 0 || reply.size == 0) return transfer(packets, reply, deadline_ns);
@@ -65,7 +64,7 @@ class Transport {
   /// exchange() does.
   virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
-  /// Call this after a fault: clears stalls and discards pending replies. May block for some
+  /// Call this after a fault: clears stalls and discards pending replies. May block some
   /// milliseconds.
   virtual void recover() noexcept = 0;
 
@@ -74,15 +73,13 @@ class Transport {
   virtual std::string where() const { return {}; }
 
   /// Returns a will, without packets, with which another process can reach the same board; empty if
-  /// that is not possible. Call this after open(). Throws DeviceError if there is no file to pass
-  /// on.
+  /// that is not possible. Call this after open(). Throws DeviceError without a file.
   virtual std::optional<LastWill> last_will() const = 0;
 
   /// May be called twice.
   virtual void close() noexcept = 0;
 
-  /// Two seconds of exchanges. A few surplus answers are no reason to stop, because each is
-  /// dropped.
+  /// Two seconds of exchanges. A few surplus answers, which are dropped, are no reason to stop.
   static constexpr int kMostUnasked = 2000;
 
  protected:

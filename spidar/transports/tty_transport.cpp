@@ -82,8 +82,7 @@ LinkFault fault_of_line(int error) noexcept {
                                                                              : LinkFault::kBusError;
 }
 
-/// Sets raw mode, 8N1, at any speed through termios2, because not every system has a constant for 2
-/// Mbaud and more.
+/// Sets raw mode, 8N1, at any speed through termios2, as some systems have no constant for 2 Mbaud.
 bool set_raw(int file, int baud) noexcept {
   termios2 settings{};
   if (call_ioctl(file, TCGETS2, &settings) != 0) return false;

@@ -15,16 +15,15 @@ struct TtyLine {
   bool named = false;  ///< "/dev/spidar…": a udev rule declares that motor boards are connected
 };
 
-/// Returns the lines of USB adapters (ttyUSB…, ttyACM…) and the named ones in `folder`, sorted.
-/// Opens none.
+/// The lines of USB adapters (ttyUSB…, ttyACM…) and named ones in `folder`, sorted. Opens none.
 std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
 
 /// The USB adapter of a line, with the number of its interface; the path identifies a line without
 /// an adapter. `sysfs` is where the kernel describes its devices.
 DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs = "/sys");
 
-/// A serial line in raw mode, 8N1, without flow control, and with low latency if the driver
-/// supports it.
+/// A serial line in raw mode, 8N1, without flow control, with low latency if the driver supports
+/// it.
 class TtyTransport final : public Transport {
  public:
   /// `name` is the device's, for error messages; `baud` any rate that the driver accepts.

@@ -18,8 +18,7 @@
 namespace spidar::filter {
 namespace {
 
-/// Holds the element only while it is read, because drawing may take long; null when the element is
-/// gone.
+/// Holds the element only while it is read, because drawing takes long; null when it is gone.
 Ref<GstElement> hold(GWeakRef& weak) {
   return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
 }
@@ -70,8 +69,7 @@ bool describe(GstElement* element, const GParamSpec* spec, window::Setting& sett
   return true;
 }
 
-/// Leaves out properties that ask for output of a program, and the switch that would close the
-/// window.
+/// Leaves out properties for output of programs, and the switch that would close the window.
 bool is_offered(const std::string& setting) {
   constexpr std::array<const char*, 4> kOfPrograms{"debug-window", "post-messages", "attach-meta",
                                                    "on-device-error"};
@@ -190,8 +188,7 @@ class ElementSource final : public window::Source {
 
   /// Seeks from the element upstream, as a sink would: the demuxer seeks for all streams. A thread
   /// of GStreamer's does this, because a seek may take long and waits for a change of the state,
-  /// which in turn waits for the thread of the window. Of several waiting seeks, the last is
-  /// executed.
+  /// which in turn waits for the thread of the window. The last of several waiting seeks counts.
   void seek(int64_t to_ns) override {
     const Ref<GstElement> held = hold(element_);
     if (!held || sought_ns_->exchange(to_ns) != kNone_ns) return;

@@ -17,8 +17,7 @@ namespace spidar::filter {
 
 namespace {
 
-/// Whether the element receives subtitles besides pictures, and draws them or writes both to a
-/// file.
+/// Whether the element also receives subtitles, and draws them or writes both to a file.
 bool takes_subtitles(GstElement* element) {
   GST_OBJECT_LOCK(element);
   bool takes = false;
@@ -68,8 +67,7 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
                                              report.frame.shown_height_px)
                            .norm();
   }
-  // The window gets the frame before the overlay draws into it, because the window draws its own
-  // arrows.
+  // The window gets the frame before the overlay draws into it, and draws its own arrows.
   if (shown_in && shown_in->wants_frame()) shown_in->give(frame, shown);
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
@@ -131,8 +129,7 @@ void MotionDisplay::close_window() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closing.swap(window_);
   }
-  // The last reference may end in the streaming thread, which must not wait, so the window closes
-  // here.
+  // The last reference may end in the streaming thread, which must not wait for the window.
   if (closing) closing->close();
 }
 

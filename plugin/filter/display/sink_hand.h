@@ -30,8 +30,7 @@ class SinkHand {
     const PicturePart& part = report.visible;
     picture_ = {part.x / w, part.y / h, part.width / w, part.height / h};
   }
-  /// Returns false when there is no hand to lead: nothing is touched, or the device is not
-  /// simulated.
+  /// Returns false without a hand to lead: nothing is touched, or the device is not simulated.
   bool update(const SinkMouse& mouse) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!touched_) return false;

@@ -40,16 +40,14 @@ class FilmRenderer {
   /// Schedules the force while the frame is shown. Fills in the report, except for the times of its
   /// frame, or why the frame cannot be analysed.
   void process(const PassingFrame& frame, FrameReport& report);
-  /// Call this instead of process() for a frame without a picture, which is turned by `turn` before
-  /// it is shown.
+  /// Call this instead of process() for a frame without a picture, which `turn` turns for display.
   void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
   /// Tells that running time begins anew.
   void reset();
   /// Tells that there are no frames from this running time on, except for those in the decoder: the
-  /// gap event of a demuxer overtakes them, and begins too early when the last one is not the
-  /// newest.
+  /// gap event of a demuxer overtakes them, and may begin too early.
   void begin_gap(GstClockTime running_time);
   void end_of_stream();
 

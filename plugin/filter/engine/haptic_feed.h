@@ -21,9 +21,8 @@ namespace spidar::filter {
 struct HapticFeed {
   explicit HapticFeed(GstElement* element);
 
-  /// Opens the device. Returns an empty string, or why the haptic trace cannot be written: the
-  /// device works without the trace. Throws ProfileError, DeviceError, std::runtime_error. State
-  /// changes.
+  /// Opens the device, in a state change. Returns an empty string, or why the haptic trace cannot
+  /// be written: the device works without. Throws ProfileError, DeviceError, std::runtime_error.
   std::string open(const MotionProperties& properties);
   /// Ramps the motors to zero and closes the device. State changes.
   void close();
@@ -35,8 +34,7 @@ struct HapticFeed {
   /// Tells that the sink shows frames `multiplier` times as fast from now on, see
   /// InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  /// Tells that the sink has stepped over `duration` of running time and shows later frames that
-  /// much earlier.
+  /// Tells that the sink has stepped over `duration` and shows later frames that much earlier.
   void skip(GstClockTime duration);
   /// Tells that running time begins anew.
   void reset();

@@ -38,8 +38,7 @@ class TrackReplay {
   /// block of the frame.
   void play(const FrameStamp& frame, const std::function<void(const TrackBlock&)>& give);
 
-  /// The largest wrench of the track while the frame of the last play() is shown; zero where the
-  /// track has none.
+  /// The largest wrench of the track while the frame of the last play() is shown; zero if none.
   Wrench largest(const FrameStamp& frame) const;
 
  private:
@@ -71,8 +70,7 @@ class TrackRenderer {
   /// its track. The given samples of the previous film are still rendered: its frames are on their
   /// way to the screen.
   void begin_stream(const std::string& track, const std::string& film);
-  /// Call this for each frame, which lasts `frame_ns`, before has_track(). For `has_rules` see
-  /// FeltTrack.
+  /// Call this for each frame, of `frame_ns`, before has_track(). For `has_rules` see FeltTrack.
   void take_loaded(int64_t frame_ns, bool has_rules);
   /// Whether a track replaces the analysis of frames.
   bool has_track() const { return replay_.has_track(); }
@@ -80,8 +78,7 @@ class TrackRenderer {
   std::string path() const;
   uint64_t frames() const { return frames_; }
 
-  /// Renders the track for a frame. The report's wrench is the largest one while the frame is
-  /// shown.
+  /// Renders the track for a frame. The report gets the largest wrench while the frame is shown.
   void process(FrameReport& report);
   void pass_gap(const FrameStamp& stamp);
 

@@ -13,8 +13,7 @@ namespace spidar::filter {
 
 /// One JSON object and a line end, with `background` and `objects`. Keys carry their units;
 /// positions are pixels from the centre of the frame, x right, y down. Numbers have as few digits
-/// as can be read back exactly. A number that is not finite becomes null, because JSON cannot
-/// express it.
+/// as can be read back exactly. A number that is not finite becomes null.
 std::string json_line(const FrameReport& report);
 
 /// A file with one line for each frame. If its name ends in .csv, the file is CSV with a header
@@ -25,8 +24,7 @@ class FrameTrace {
   /// Returns an empty string, or the reason why the file cannot be written.
   std::string open(const std::string& path);
 
-  /// Writes without waiting for the file. Returns errno of the write that ended the trace; 0 if
-  /// none.
+  /// Writes without waiting. Returns errno of the write that ended the trace; 0 if none.
   int write(const FrameReport& report);
 
   /// Writes the last rows, as far as the file accepts them.

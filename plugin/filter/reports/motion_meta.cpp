@@ -38,8 +38,7 @@ GstStructure* add_copy(GstBuffer* to, GstBuffer* from) {
   return copy;
 }
 
-/// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, and zeros as
-/// padding.
+/// A point as GVariant serialises "(uddddu)": doubles at multiples of eight bytes, zero padding.
 struct SerialisedPoint {
   guint32 id, zero_after_id;
   gdouble from_x, from_y, to_x, to_y;
@@ -48,8 +47,7 @@ struct SerialisedPoint {
 static_assert(sizeof(SerialisedPoint) == 48);
 
 void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& points) {
-  // The array is made in one piece: a GVariant of each number takes longer than the analysis of
-  // motion.
+  // A GVariant of each number, instead of one for all, takes longer than the analysis of motion.
   GVariant* array = g_variant_new_fixed_array(
       g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_POINTS_TYPE)), points.data(),
       points.size(), sizeof(SerialisedPoint));
@@ -200,8 +198,7 @@ gboolean transform(GstBuffer* to, GstCustomMeta*, GstBuffer* from, GQuark type, 
 
 void register_motion_meta() {
   static const bool registered = [] {
-    // An element that changes one of these, on which the values depend, calls transform() or drops
-    // the meta.
+    // An element that changes one of these calls transform() or drops the meta.
     const gchar* tags[] = {GST_META_TAG_VIDEO_STR, GST_META_TAG_VIDEO_SIZE_STR,
                            GST_META_TAG_VIDEO_ORIENTATION_STR, nullptr};
     return gst_meta_register_custom(GST_SPIDAR_MOTION_META_NAME, tags, transform, nullptr,

@@ -71,8 +71,7 @@ class ReliefStream {
   void add(const ImageView& luma, const Frame& analyzed, int64_t shown_ns,
            const TouchProperties& properties, const Eigen::Vector2d& finger,
            std::string* shading = nullptr);
-  /// Sets how the following frames are turned before they are shown; the relief is turned like
-  /// them.
+  /// Sets how the following frames are turned for display; the relief is turned likewise.
   void set_turn(const Orientation& turn) { turn_ = turn; }
   /// Sets the brightness of black and white in the following frames.
   void set_levels(const LumaLevels& levels) { levels_ = levels; }

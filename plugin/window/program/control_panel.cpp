@@ -278,8 +278,7 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
     const TickRecord& last = state.device->last;
     parts.push_back(std::string("device ") + to_string(last.device) +
                     (last.playing ? "" : ", film at rest"));
-    // A thousand forces a second are due; some are late on every machine that does other things,
-    // too.
+    // Of a thousand forces a second, some are late on every machine that does other things.
     if (state.device->overruns > 0) parts.push_back(count_of(state.device->overruns, "late force"));
   }
   double x = panel.right() - 10 * brush.scale;

@@ -118,8 +118,7 @@ void draw_objects(const Overlay& over) {
   }
 }
 
-/// Writes newtons and the name `which` of a force, `along` from `beyond`, or where the picture has
-/// space.
+/// Writes newtons and the name `which` of a force, `along` from `beyond`, or where it fits.
 void draw_size(const Overlay& over, double force_N, const char* which,
                const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
   if (force_N < kFeltForce_N) return;

@@ -64,8 +64,7 @@ class PictureTexture {
     return true;
   }
 
-  /// Loads the shading of a relief, to lie over a picture: shadow darkens it, and light brightens
-  /// it.
+  /// Loads the shading of a relief, whose shadow darkens and whose light brightens a picture.
   void load_shading(const std::string& shading) {
     constexpr int kLevel = 128, kPictureStays = 3;  // a third of the picture always shows
     std::vector<uint8_t> rgba;

@@ -31,8 +31,7 @@ class FrameQueue {
   /// although it is not on the screen yet.
   static constexpr size_t kMax = 8;
 
-  /// An earlier running time than before means another stream or a seek: all waiting frames are
-  /// dropped.
+  /// An earlier running time than before, of another stream or a seek, drops all waiting frames.
   void add(QueuedFrame frame);
   /// Returns the newest frame on the screen at this running time; without a running time, while
   /// nothing is felt, the newest of all. Nothing when there is no other frame than before.

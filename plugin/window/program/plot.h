@@ -37,8 +37,7 @@ class Plot {
 
   const Rect& area() const { return area_; }
   ImVec2 at(double x, double y) const;
-  /// The mouse's position on the x axis, where a line is drawn; nothing while the mouse is
-  /// elsewhere.
+  /// The mouse's position on the x axis, marked by a line; nothing while the mouse is elsewhere.
   std::optional<double> hovered_x() const;
 
   static int steps_across(const Brush& brush, double width_px);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The debug window of one element, as a program: spidarmotion starts it with a socket as its
-// standard input.
+// The debug window of one element: spidarmotion starts this program with a socket as standard
+// input.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>

@@ -11,12 +11,10 @@
 namespace spidar::window {
 
 /// One end of the socket between a player and its window. A packet is a header, with the protocol's
-/// version and the length, and as many bytes; a file may come with it. No function waits. One
-/// thread.
+/// version and the length, and as many bytes, and may have a file. No function waits. One thread.
 class Channel {
  public:
-  /// The largest packet, and the most files that may wait. The other end is broken if it sends
-  /// more.
+  /// The largest packet, and the most files that may wait. More means that the other end is broken.
   struct Limits {
     uint32_t bytes = 0;
     size_t files = 0;

@@ -24,8 +24,7 @@ class PictureSlots {
   /// As many pictures as a window keeps: the waiting ones, the shown one, and the next one.
   static constexpr uint32_t kSlots = 10;
 
-  /// Makes slots for frames like this one. When the system has no memory for them, is_there() is
-  /// false.
+  /// Makes slots for frames like this one. Without memory for them, is_there() is false.
   PictureSlots(uint32_t id, const GstVideoFrame& frame);
   ~PictureSlots();
   PictureSlots(const PictureSlots&) = delete;
@@ -39,8 +38,7 @@ class PictureSlots {
   /// Takes a free slot and returns its number; nothing when there is none.
   std::optional<uint32_t> take();
   void give_back(uint32_t slot);
-  /// Copies into a taken slot. Returns false when the frame cannot be read. May run beside every
-  /// other function.
+  /// Copies into a taken slot. Returns false when the frame cannot be read. Any thread.
   bool copy(const GstVideoFrame& frame, uint32_t slot) const;
 
  private:

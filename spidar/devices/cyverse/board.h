@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The two CyVerse boards, SH4 and Simple: eight D/A converters from zero volts, eight counters, a
-/// rotary switch.
+/// switch.
 #pragma once
 
 #include <array>

@@ -98,8 +98,7 @@ std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noe
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d end = rods_end_m(i, position_m);
     const double span = span_m(end.y()), reach_m = std::hypot(end.x(), end.z());
-    // The law of cosines holds in the triangle of axis, knee and rods' end; the knee is on the
-    // outside.
+    // Law of cosines in the triangle of axis, knee and rods' end, with the knee on the outside.
     const double cosine =
         (kUpperArm_m * kUpperArm_m + reach_m * reach_m - span * span) / (2 * kUpperArm_m * reach_m);
     if (!(std::abs(cosine) < 1)) return std::nullopt;

@@ -40,8 +40,7 @@ std::optional<Eigen::Vector3d> arm_angles(const Eigen::Vector3d& position_m) noe
 std::optional<Eigen::Vector3d> grip_position(const Eigen::Vector3d& angles_rad) noexcept;
 constexpr int kMaxSteps = 20;
 
-/// Returns ∂position/∂angles, m/rad; nothing where the arms do not determine the motion of the
-/// grip.
+/// Returns ∂position/∂angles, m/rad; nothing where the arms do not determine the motion.
 std::optional<Eigen::Matrix3d> jacobian(const Eigen::Vector3d& angles_rad,
                                         const Eigen::Vector3d& position_m) noexcept;
 

@@ -37,8 +37,7 @@ inline constexpr std::array<uint8_t, 3> kHello{0x0A, 0x43, 0x0D};
 /// A zero byte may precede this answer.
 inline constexpr std::array<uint8_t, 4> kHelloAnswer{0x0A, 0x44, 0x2C, 0x0D};
 
-/// Requests between hello and firmware; then the device echoes kLoad and every piece of the
-/// firmware.
+/// Requests between hello and firmware; then the device echoes kLoad and the pieces of firmware.
 inline constexpr std::array kLoadLine{ftdi::kDtrLow, ftdi::baud_divisor(kLoadBaud)};
 inline constexpr std::array<uint8_t, 1> kLoad{'A'};
 constexpr size_t kPieceSize = ftdi::kPacketSize - ftdi::kStatusSize;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Force-feedback joysticks, wheels and gamepads of Linux, with up to two force axes and a
-/// position.
+/// Force-feedback joysticks, wheels and gamepads of Linux: up to two force axes and a position.
 #pragma once
 
 #include <atomic>

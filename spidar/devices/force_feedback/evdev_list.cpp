@@ -36,8 +36,7 @@ std::string attribute(const std::string& path) {
   return printable(text.substr(0, text.find('\n')));
 }
 
-/// Tests a bit in the words that sysfs prints: hexadecimal, of the size of a long, the highest
-/// first.
+/// Tests a bit in the words of sysfs: hexadecimal, of the size of a long, the highest first.
 bool has_bit(const std::string& words, unsigned bit) {
   constexpr unsigned kBits = 8 * sizeof(unsigned long);
   std::string left = words;
@@ -111,8 +110,7 @@ std::string without_links(const std::string& path) {
 std::string evdev_driver(const std::string& path) {
   const std::filesystem::path file = without_links(path);
   // The parent of an input device is the device that the driver is bound to, for example on the HID
-  // bus. The parent's uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c of
-  // the kernel).
+  // bus. The parent's uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c).
   const std::string of_parent = file.filename().string() + "/device/device/uevent";
   const std::string uevent = "\n" + beginning(std::string(kSysfs) + "/" + of_parent);
   constexpr const char* kKey = "\nDRIVER=";

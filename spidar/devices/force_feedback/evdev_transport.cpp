@@ -118,8 +118,7 @@ void EvdevTransport::open() {
   if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
   try {
-    // The identity must be that of the open file: since the listing, its number may have gone to
-    // another device.
+    // The open file decides: since the listing, its number may have gone to another device.
     first_.require(name_, evdev_identity(file_));
   } catch (...) {
     close();
@@ -180,8 +179,7 @@ ff::Description EvdevTransport::describe() const noexcept {
 
 bool EvdevTransport::read_position(ff::Position& position) const noexcept {
   int effects = 0;
-  // The query also reaches a device without axes, because the answer shows that the device is still
-  // connected.
+  // A device without axes is queried, too, because the answer shows that it is still connected.
   if (call_ioctl(file_, EVIOCGEFFECTS, &effects) < 0) return false;
   if (right_axis_ >= 0 && !position_on(file_, right_axis_, position.right)) return false;
   if (up_axis_ >= 0 && !position_on(file_, up_axis_, position.up)) return false;

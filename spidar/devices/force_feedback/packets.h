@@ -70,8 +70,7 @@ constexpr std::array<uint8_t, kPositionSize> kPosition{};
 
 /// Encodes FF_CONSTANT for kEffect_ms in a fixed direction; `level` is clamped to ±kFullLevel.
 EffectBytes encode_constant(int16_t number, Direction direction, int level) noexcept;
-/// Encodes FF_RUMBLE for kEffect_ms; `strength` of the strong motor is clamped to 0 …
-/// kFullStrength.
+/// Encodes FF_RUMBLE for kEffect_ms; the strong motor's `strength` is clamped to kFullStrength.
 EffectBytes encode_rumble(int16_t number, int strength) noexcept;
 /// Starts or stops an effect. An effect that is playing starts again from its beginning.
 EventBytes encode_play(int16_t number, bool on) noexcept;

@@ -279,8 +279,7 @@ void StickEffects::update() noexcept {
 void StickEffects::run() noexcept {
   while (!stop_) {
     update();
-    // The pause begins at the end of the update, so that the calls of a slow driver do not become
-    // denser.
+    // The pause begins at the end of the update, so that a slow driver gets no denser calls.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
   end_effects();

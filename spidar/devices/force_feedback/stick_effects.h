@@ -37,8 +37,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
  public:
   static constexpr int kUpdate_ms = 5;
   static constexpr int kRefresh_ms = 50;
-  /// How long close() waits for a driver that hangs, beyond the time that the centring spring
-  /// needs.
+  /// How long close() waits for a hanging driver, beyond the time of the centring spring.
   static constexpr int kHang_ms = 300;
 
   struct Options {

@@ -121,8 +121,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
     }
     return text.u8(text.size - 1) == '}' ? LinkFault::kWrongReply : LinkFault::kShort;
   }
-  /// The id to look for. After a loss the device must be the same, because another hand may hold
-  /// another device.
+  /// The id to look for. After a loss it stays, because another hand may hold another device.
   const std::string& wanted() const noexcept { return device_.id.empty() ? id_ : device_.id; }
   [[noreturn]] void refuse(const std::string& why, DeviceErrorCode code = DeviceErrorCode::kFailed,
                            SourceLocation location = SourceLocation::here()) const {

@@ -62,8 +62,7 @@ enum class Answer {
 Answer decode_state(ByteView message, std::string_view id, State& state) noexcept;
 
 /// All three encoders return the length, or 0 if the message is larger than `bytes`. encode_query()
-/// requests the state of everything; encode_start() names this program and, for k35, chooses the
-/// preset.
+/// requests the state of everything; encode_start() names this program and, for k35, the preset.
 size_t encode_query(MutableBytes bytes) noexcept;
 size_t encode_start(const State& device, MutableBytes bytes) noexcept;
 /// Reduces the force to kLargestForce_N; a force that is not a number counts as zero.

@@ -51,12 +51,11 @@ class SimulatedDevice final : public StringDevice {
   ~SimulatedDevice() override;
 
   /// Puts the grip at rest at the centre, as the user of a real device does. The counters are zero
-  /// there, or where the profile's home_offset_m puts them. Throws DeviceError while a fault is
-  /// set.
+  /// there, or where the profile's home_offset_m puts them. Throws DeviceError if a fault is set.
   void open() override;
 
-  /// Returns kGone when the device is not open. Voltages that are not finite or have the wrong sign
-  /// count as zero.
+  /// Returns kGone when the device is not open. Voltages of the wrong sign or not finite count as
+  /// zero.
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 
   /// Continues the simulation at zero volts until the motor lag has decayed, for at most 50 ms.

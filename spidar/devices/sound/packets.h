@@ -23,13 +23,12 @@ constexpr int kRate_Hz = 48'000;
 /// The length of a block, which is written at once.
 constexpr int kBlock_ms = 10;
 constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
-/// A level that is not renewed for this time is followed by silence, as with guardians
-/// (kSilence_ms).
+/// After this time, a level that is not renewed becomes silence, as with guardians (kSilence_ms).
 constexpr int kSilence_ms = 50;
 /// The force at full level, as for sticks: amplifiers do not report how strong they are.
 constexpr double kFullForce_N = kDefaultForce_N;
-/// The frequencies that bass shakers and voice coils can play, and that a hand or a back feels as
-/// one vibration.
+/// Frequencies that bass shakers and voice coils can play, and that the body feels as one
+/// vibration.
 constexpr int kLowest_Hz = 20, kHighest_Hz = 120;
 
 struct Settings {

@@ -8,8 +8,8 @@
 
 namespace spidar {
 
-/// This is snd_lib_error_set_local(), which ALSA's header declares as a C++ function that its
-/// library lacks.
+/// snd_lib_error_set_local(): ALSA's header lacks extern "C", so C++ does not find it in the
+/// library.
 extern "C" snd_local_error_handler_t set_alsa_error_handler(
     snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
 

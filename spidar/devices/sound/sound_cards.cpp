@@ -51,8 +51,7 @@ void add_cards(std::vector<SoundCard>& found) {
   }
 }
 
-/// Adds the PCMs that a person has configured with a hint; names with a colon or a comma belong to
-/// cards.
+/// Adds PCMs that a person has configured with a hint; names with a colon or comma belong to cards.
 void add_configured(std::vector<SoundCard>& found) {
   void** hints = nullptr;
   if (snd_device_name_hint(-1, "pcm", &hints) < 0) return;

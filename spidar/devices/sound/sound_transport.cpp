@@ -173,8 +173,7 @@ std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
 int SoundTransport::Pcm::write(const uint8_t* block) noexcept {
   const snd_pcm_sframes_t written = snd_pcm_writei(handle_, block, sound::kBlockFrames);
   if (written < 0) return static_cast<int>(written);
-  // A file takes sound as fast as it comes, so blocks keep the pace of a card; no card's clock is
-  // wrong by 2 %.
+  // Blocks keep the pace of a card even for a file; no card's clock is wrong by 2 %.
   next_ns_ = std::max(next_ns_, monotonic_now_ns() - held_ns()) + kBlock_ns * 49 / 50;
   return 0;
 }
@@ -243,8 +242,7 @@ Transfer SoundTransport::transfer(std::initializer_list<ByteView> packets, Mutab
   return {LinkFault::kNone, length};
 }
 
-/// Each wake-up is a little late, and the card's answer contains that; the loop can count on the
-/// mean.
+/// The card's answer contains the lateness of a wake-up; the loop can count on the mean.
 void SoundTransport::set_lag(int64_t lag_ns) noexcept {
   constexpr int kAveraged = 16;
   lag_ns_ = lag_ns_ == 0 ? lag_ns : lag_ns_ + (lag_ns - lag_ns_) / kAveraged;

@@ -161,8 +161,7 @@ std::vector<LastWill> Uart::last_wills() const {
     for (const Station& station : stations_) {
       if (station.line != line.get()) continue;
       auto& packet = will->packet[will->packets];
-      // If the host stopped within a packet, the board is still waiting for the rest of that
-      // packet.
+      // If the host stopped within a packet, the board is still waiting for the rest.
       const size_t before = will->packets == 0 ? uart_motor::kZerosBefore : 0;
       const size_t length = uart_motor::encode_current(
           station.id, station.info, {}, {packet.data() + before, packet.size() - before});

@@ -48,8 +48,7 @@ constexpr uint8_t header(int board, Command command) noexcept {
   return static_cast<uint8_t>((board & 7) | static_cast<int>(command) << 3);
 }
 
-/// The number of zeros before an enquiry, with which a board that is within a packet reaches the
-/// packet's end.
+/// The number of zeros before an enquiry, which complete a packet that a board still expects.
 constexpr size_t kZerosBefore = 40;
 /// The number of zeros after an enquiry, during which the board replies.
 constexpr size_t kZerosAfter = 26;

@@ -102,8 +102,7 @@ GripProjection::GripProjection(const Rect& panel, const StringGeometry& geometry
 }
 
 Eigen::Vector2d GripProjection::flat_m(const Eigen::Vector3d& at_m) {
-  // The viewer's place is to the right and above: near objects (z > 0) are drawn to the left and
-  // down.
+  // The viewer is to the right and above: near objects (z > 0) are drawn to the left and down.
   const double x = std::cos(kTurn) * at_m.x() - std::sin(kTurn) * at_m.z();
   const double z = std::sin(kTurn) * at_m.x() + std::cos(kTurn) * at_m.z();
   return {x, -(std::cos(kTilt) * at_m.y() - std::sin(kTilt) * z)};

@@ -40,8 +40,7 @@ struct Sighting {
 /// The objects that were seen in the scene on the screen.
 class Sightings {
  public:
-  /// An object that has been invisible for longer is forgotten: if it returned, it would be another
-  /// one.
+  /// An object that has been invisible for longer is forgotten, because it would return as another.
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
 
   /// Takes the next frame on the screen. Another scene or film forgets all objects.
@@ -61,8 +60,7 @@ class Sightings {
 /// last seen. Times are whole milliseconds.
 class SceneChoices {
  public:
-  /// Takes the next frame on the screen. Returns true when a choice ends because its scene has
-  /// ended.
+  /// Takes the next frame on the screen. Returns true when a choice ends with its scene.
   bool update(const DrawnFrame& report);
 
   /// When the object of a choice was last seen, if it has been lost since the last call.
@@ -125,8 +123,7 @@ struct FilmStrip {
   const StripMark* at(double position, double reach) const;
 };
 
-/// The strip of a film from a file, if its times are known; else an empty strip. `rules` may be
-/// null.
+/// The strip of a film from a file with known times; else an empty strip. `rules` may be null.
 FilmStrip film_strip(const DrawnFrame& report, const FeelRules* rules,
                      const std::vector<FeelEdit>& edits);
 

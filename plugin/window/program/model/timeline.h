@@ -28,8 +28,7 @@ struct Moment {
   Wrench felt;            ///< delivered at the grip; zero without a device
 };
 
-/// The forces of the milliseconds in one pixel's width of a plot, and on the way from the pixel
-/// before.
+/// The forces of the milliseconds in one pixel's width of a plot, and since the pixel before.
 struct ForceColumn {
   bool is_empty = true;
   Eigen::Vector3d wanted_low_N, wanted_high_N, delivered_low_N, delivered_high_N;  ///< by axis
@@ -55,14 +54,12 @@ class Timeline {
   /// Oldest first.
   const std::deque<Moment>& moments() const { return moments_; }
   /// How many seconds an axis from the oldest moment on must show: at least what the plots show,
-  /// and the whole memory once most of it is full. One of few round numbers, so that the axis
-  /// seldom changes.
+  /// and the whole memory once most of it is full. One of few round numbers.
   double remembered_s() const;
   double plotted_s() const { return plotted_s_; }
   void zoom(double factor);
   std::vector<Moment> plotted() const;
-  /// The lowest and highest forces in each of `count` equal parts of a time, at any rate of
-  /// drawing.
+  /// The lowest and highest forces in each of `count` equal parts of a time.
   std::vector<ForceColumn> columns(double from_s, double to_s, size_t count) const;
   /// Force in N at `points` speeds from 0 to `highest_px_s`, of a controller that has adapted to
   /// the recorded data: the linear one to the largest speed since the stream began (eq. 13), the

@@ -15,8 +15,7 @@
 namespace spidar::window {
 
 /// Two settings of the element to compare, of which one is in use. Both begin as those of the
-/// element; then each stores the changes while it is in use. Whether the force is stopped belongs
-/// to neither.
+/// element; then each stores the changes while it is in use, except for the stop of the force.
 class TwoSettings {
  public:
   /// The element has refused a change that is still missing after this many of its answers: earlier
