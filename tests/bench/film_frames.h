@@ -12,8 +12,4 @@ namespace spidar::bench {
 
 std::vector<test::Picture> draw_all(test::Film& film, int frames);
 
-/// Through H.264 and back, at the bit rate of a film: .06 bit a pixel at 30 frames a second. Throws
-/// std::runtime_error when GStreamer has not what it needs, and says what.
-std::vector<test::Picture> coded(const std::vector<test::Picture>& frames);
-
 }  // namespace spidar::bench

@@ -224,22 +224,6 @@ std::unique_ptr<Method> make_method(const std::string& name) {
       "with a SIZE of at most 1, lk:POINTS");
 }
 
-const std::vector<std::string>& method_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {"paper"};
-    for (const char* size : {"1", "0.5", "0.25"}) {
-      all.push_back(std::string("object:") + size);
-      for (const char* preset : {"ultrafast", "fast", "medium"})
-        all.push_back(std::string("dis:") + preset + ":" + size);
-      all.push_back(std::string("farneback:") + size);
-      all.push_back(std::string("phase:") + size);
-    }
-    for (const char* points : {"100", "500", "2000"}) all.push_back(std::string("lk:") + points);
-    return all;
-  }();
-  return names;
-}
-
 Vector2d FlowGrid::at_px(size_t i) const {
   const auto columns_of = static_cast<size_t>(columns);
   return {kStep_px * (static_cast<double>(i % columns_of) + 0.5 - columns / 2.0),

@@ -34,9 +34,6 @@ class Method {
 /// Throws std::invalid_argument, which lists them.
 std::unique_ptr<Method> make_method(const std::string& name);
 
-/// Those of the comparison.
-const std::vector<std::string>& method_names();
-
 /// Flow at each point of a grid, px; where it is not known, nothing.
 struct FlowGrid {
   static constexpr int kStep_px = 16;

@@ -44,13 +44,6 @@ void Pipeline::wait_for_end() {
   gst_message_unref(message);
 }
 
-std::string Pipeline::problem() const {
-  GstBus* bus = gst_element_get_bus(pipeline_.get());
-  GstMessage* message = gst_bus_pop_filtered(bus, GST_MESSAGE_ERROR);
-  gst_object_unref(bus);
-  return message ? text_of(message) : "no picture";
-}
-
 std::vector<std::vector<double>> read_trace(const std::string& path,
                                             const std::vector<std::string>& columns) {
   std::ifstream trace(path);

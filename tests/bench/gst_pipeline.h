@@ -34,8 +34,6 @@ class Pipeline {
   Element by_name(const char* name) const {
     return Element(gst_bin_get_by_name(GST_BIN(pipeline_.get()), name));
   }
-  /// What went wrong, if anything did.
-  std::string problem() const;
 
  private:
   Element pipeline_;

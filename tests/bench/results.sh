@@ -17,14 +17,11 @@ shift
 
 run() { # NAME
     case $1 in
-    tracking) bench tracking 640x360 1280x720 1920x1080 3840x2160 object:1 paper dis:ultrafast:0.25 ;;
     real_films) BUILD=$build tests/bench/real_films.sh "$FILMS" ;;
     changed_films) BUILD=$build tests/bench/changed_films.py "$FILMS" ;;
     same_films) BUILD=$build tests/bench/same_films.py "$FILMS" ;;
     pareto) BUILD=$build tests/bench/pareto.sh "$FILMS" --output "$folder" ;;
     gyroscope) BUILD=$build tests/bench/gyroscope.py ${GYROSCOPE:+"$GYROSCOPE"} ;;
-    films) BUILD=$build tests/bench/pathologies.sh ;;
-    study_errors) tests/bench/study_errors.py ;;
     error_bound) SPIDAR_SWEEP=1 "$build/tests/core/test_core" test_error_bound.cpp ;;
     hazards) meson test -C "$build" --suite hazards --verbose ;;
     paper) meson devenv -C "$build" "$PWD/docs/figures/paper_figures.py" "$folder" ;;
@@ -34,7 +31,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar tests/core/test_core
-[ $# -gt 0 ] || set -- tracking ladder stability camera films ${FILMS:+real_films changed_films same_films pareto} gyroscope skew lag loop cost filter tension pose safety hazards touch_strings turns workspace error_bound study_errors paper
+[ $# -gt 0 ] || set -- camera ${FILMS:+real_films changed_films same_films pareto} gyroscope skew lag loop cost tension pose safety hazards turns workspace error_bound paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

@@ -299,7 +299,7 @@ class Perception(unittest.TestCase):
         return logs, trials
 
     def test_a_threshold_is_that_of_a_simulated_person(self):
-        """Also of who lapses in 5 % of the trials: as tests/bench/study_errors.py, whose table the page has."""
+        """Also of who lapses in 5 % of the trials."""
         for lapses in 0, 0.05:
             person = lambda level, lapses=lapses: lapses / 2 + (1 - lapses) * self.chance(level)
             logs, trials = self.found(random.Random(1), person, 40)

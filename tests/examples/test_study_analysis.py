@@ -148,7 +148,7 @@ class Inference(unittest.TestCase):
         self.assertEqual(inference.holm([0.6, 0.7]), [1, 1])
 
     def test_errors_are_as_rare_as_they_should_be(self):
-        """Of 4000 studies of each kind: as tests/bench/study_errors.py, whose table the page has."""
+        """Of 4000 studies of each kind."""
         for clip_spread in 0, 0.8:
             for log_odds in 0, math.log(8):
                 random = np.random.default_rng(int(10 * clip_spread + log_odds))

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Which presentations of the study count: by doctored traces. tests/bench/study_delivery.py doctors those of films.
+"""Which presentations of the study count: by doctored traces.
 
     test_study_delivery.py FOLDER-OF-STUDY.PY
 """
