@@ -24,10 +24,10 @@
 #include "examples/play/playback.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
-#include "plugin/films/part_file.h"
-#include "plugin/properties/software_gl.h"
-#include "plugin/properties/typed_property.h"
+#include "plugin/programs/software_gl.h"
+#include "plugin/programs/typed_property.h"
 #include "plugin/tools/gnuplot.h"
+#include "spidar/part_file.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/mark_files.h"
 #include "spidar/whole_file.h"
@@ -188,16 +188,11 @@ void wait_for_window(const Playing& playing) {
 
 /// Returns whether one of the properties determines what is drawn into the video.
 bool set_properties(GstElement* filter, const Options& options) {
-  bool has_overlay = false;
   g_object_set(filter, "device", "auto", nullptr);
+  bool has_overlay = false;
   for (const std::string& text : options.properties) {
-    if (const auto preset = spidar::preset_of(text)) {
-      spidar::load_preset(filter, *preset);
-      continue;
-    }
-    const spidar::TypedProperty property(G_OBJECT(filter), text);
-    g_object_set_property(G_OBJECT(filter), property.name().c_str(), property.value());
-    has_overlay = has_overlay || property.name() == "overlay";
+    spidar::set_typed(filter, text);
+    has_overlay = has_overlay || text.rfind("overlay=", 0) == 0;
   }
   return has_overlay;
 }

@@ -15,9 +15,9 @@
 
 #include <gst/gst.h>
 
+#include "plugin/feel/follow/film_plan.h"
 #include "plugin/films/film_list.h"
 #include "plugin/films/text_lines.h"
-#include "plugin/follow/film_plan.h"
 #include "plugin/gobject/ref.h"
 
 namespace spidar {

@@ -18,15 +18,15 @@
 
 #include <gst/gst.h>
 
-#include "plugin/feel/feel_bin.h"
+#include "plugin/feel/follow/felt_element.h"
+#include "plugin/feel/follow/follow.h"
 #include "plugin/feel/playlist.h"
-#include "plugin/follow/felt_element.h"
-#include "plugin/follow/follow.h"
+#include "plugin/feel/screen/screen.h"
+#include "plugin/feel/tracer/feel_bin.h"
 #include "plugin/gobject/ref.h"
-#include "plugin/properties/own_plugins.h"
-#include "plugin/properties/software_gl.h"
-#include "plugin/properties/typed_property.h"
-#include "plugin/screen/screen.h"
+#include "plugin/programs/own_plugins.h"
+#include "plugin/programs/software_gl.h"
+#include "plugin/programs/typed_property.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/board_list.h"
@@ -38,27 +38,11 @@
 namespace spidar {
 namespace {
 
-/// Sets it, or loads the preset.
-void take(GstElement* element, const std::string& text) {
-  if (const auto preset = preset_of(text)) {
-    load_preset(element, *preset);
-    return;
-  }
-  const TypedProperty property(G_OBJECT(element), text);
-  g_object_set_property(G_OBJECT(element), property.name().c_str(), property.value());
-}
-
-std::string string_property(GObject* element, const char* name) {
-  gchar* text = nullptr;
-  g_object_get(element, name, &text, nullptr);
-  const std::string result = text ? text : "";
-  g_free(text);
-  return result;
-}
-
 void check_device(GObject* element) {
-  const std::string device = string_property(element, "device");
-  const std::string profile = string_property(element, "profile");
+  g_autofree gchar *device_text = nullptr, *profile_text = nullptr;
+  g_object_get(element, "device", &device_text, "profile", &profile_text, nullptr);
+  const std::string device = device_text ? device_text : "";
+  const std::string profile = profile_text ? profile_text : "";
   try {
     if (device != "none" && device != kAutoDevice) {
       make_grip(device, profile_for(device, profile));
@@ -76,7 +60,7 @@ void check_device(GObject* element) {
 /// property does not take, a name that no device has, and a profile that cannot be read or does not
 /// suit the device.
 void check_properties(GstElement* element, const std::vector<std::string>& properties) {
-  for (const std::string& property : properties) take(element, property);
+  for (const std::string& property : properties) set_typed(element, property);
   check_device(G_OBJECT(element));
 }
 
@@ -319,16 +303,6 @@ void run_films(char** films) {
   fail(kCannotRun, std::string(kPlayer) + ": " + std::strerror(error));
 }
 
-/// The value of the property `device`, of which the last one counts; empty: none is given.
-std::string device_of(const Options& options) {
-  const std::string begin = "device=";
-  std::string device;
-  for (const std::string& property : options.properties) {
-    if (property.rfind(begin, 0) == 0) device = property.substr(begin.size());
-  }
-  return device;
-}
-
 /// Whether the program is one of those that people try, and that show no video by GStreamer.
 bool is_without_gstreamer(const std::string& program) {
   constexpr const char* kPrograms[] = {"mpv",  "vlc",     "cvlc",     "mplayer",      "ffplay",
@@ -339,7 +313,8 @@ bool is_without_gstreamer(const std::string& program) {
 
 /// Says what would otherwise be missed.
 void warn_of_nothing_felt(const Options& options) {
-  if (device_of(options) == "none") return;  // nothing is to be felt
+  const char* const device = spidar::follow::value_of(options.properties, "device");
+  if (device && std::strcmp(device, "none") == 0) return;  // nothing is to be felt
   if (is_without_gstreamer(options.program[0])) {
     std::fprintf(
         stderr,
@@ -361,7 +336,8 @@ int main(int argc, char** argv) {
     return spidar::tools::status_after_printing("spidar-feel", 0);
   }
   Options options = parse(argc, argv);
-  if (device_of(options).empty()) {
+  const char* const device = spidar::follow::value_of(options.properties, "device");
+  if (!device || !*device) {
     options.properties.insert(options.properties.begin(), "device=auto");
   }
   find_plugins();

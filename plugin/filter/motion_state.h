@@ -13,12 +13,12 @@
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/engine/film_renderer.h"
 #include "plugin/filter/engine/haptic_feed.h"
-#include "plugin/filter/engine/stream_orientation.h"
 #include "plugin/filter/engine/track_renderer.h"
 #include "plugin/filter/reports/frame_trace.h"
 #include "plugin/filter/reports/motion_stats.h"
 #include "plugin/filter/spidar_motion.h"
 #include "plugin/frame/frame_report.h"
+#include "plugin/frame/stream_orientation.h"
 #include "plugin/properties/motion_properties.h"
 #include "plugin/timing/step_watch.h"
 

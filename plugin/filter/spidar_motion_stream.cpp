@@ -196,7 +196,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_TAG: {
       GstTagList* tags;
       gst_event_parse_tag(event, &tags);
-      if (!spidar::filter::follows_tag_upstream(trans->sinkpad)) state.orientation.update(tags);
+      if (!spidar::follows_tag_upstream(trans->sinkpad)) state.orientation.update(tags);
       break;
     }
     case GST_EVENT_SEGMENT: {

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "plugin/films/part_file.h"
 #include "plugin/tools/record_options.h"
+#include "spidar/part_file.h"
 
 namespace spidar::tools {
 

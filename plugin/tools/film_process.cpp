@@ -10,7 +10,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <spawn.h>
 #include <stdexcept>
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -32,6 +31,7 @@
 #include "plugin/tracks/sidecar.h"
 #include "plugin/tracks/track_summary.h"
 #include "plugin/tracks/track_tags.h"
+#include "spidar/child_process.h"
 #include "spidar/own_program.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/tools/command_line.h"
@@ -224,27 +224,15 @@ class JobFile {
 
 pid_t start_process(const FilmJob& job, int answers, int part) {
   const JobFile file(job);
-  std::vector<std::string> words = {"spidartrack",
-                                    kMark,
-                                    std::to_string(getpid()),
-                                    std::to_string(answers),
-                                    std::to_string(part),
-                                    std::to_string(file.descriptor()),
-                                    job.film};
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  // A descriptor that is copied to its own number stays open.
-  posix_spawn_file_actions_adddup2(&actions, answers, answers);
-  if (part != kNoPart) posix_spawn_file_actions_adddup2(&actions, part, part);
-  posix_spawn_file_actions_adddup2(&actions, file.descriptor(), file.descriptor());
-  pid_t process = 0;
-  const int error =
-      posix_spawn(&process, own_program(), &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) Answers::fail(error);
+  std::vector<std::pair<int, int>> files{{answers, answers},
+                                         {file.descriptor(), file.descriptor()}};
+  if (part != kNoPart) files.emplace_back(part, part);
+  const pid_t process =
+      start_child(own_program(),
+                  {"spidartrack", kMark, std::to_string(getpid()), std::to_string(answers),
+                   std::to_string(part), std::to_string(file.descriptor()), job.film},
+                  files, 0);
+  if (process < 0) Answers::fail(errno);
   return process;
 }
 

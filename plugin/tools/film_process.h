@@ -8,8 +8,8 @@
 #include <string>
 
 #include "core/json_text.h"
-#include "plugin/films/part_file.h"
 #include "plugin/tools/record_options.h"
+#include "spidar/part_file.h"
 
 namespace spidar::tools {
 

@@ -4,16 +4,18 @@
 
 #include <cctype>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <spawn.h>
 #include <stdexcept>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <glib.h>
+
+#include "plugin/gobject/ref.h"
+#include "spidar/child_process.h"
 #include "spidar/realtime/uninterrupted.h"
 
 namespace spidar::tools {
@@ -39,26 +41,12 @@ std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = ""
 /// Returns gnuplot's status, as waitpid() reports it. It has no file names, since it runs one that
 /// begins with | or < as a command.
 int run(int in, int out, int errors) {
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
-  posix_spawn_file_actions_adddup2(&files, errors, STDERR_FILENO);
-  // The signals that this program blocks are to end gnuplot.
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK);
-  // Without the settings of the user's own ~/.gnuplot.
-  std::string name = "gnuplot", as_built = "--default-settings";
-  char* const arguments[] = {name.data(), as_built.data(), nullptr};
-  pid_t process = -1;
-  const int error = posix_spawnp(&process, name.c_str(), &files, &attributes, arguments, environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) fail(error, "; it is in the Debian package gnuplot-nox");
+  // Without the settings of the user's own ~/.gnuplot. The signals that this program blocks are to
+  // end gnuplot.
+  const pid_t process = start_child(
+      taken(g_find_program_in_path("gnuplot")), {"gnuplot", "--default-settings"},
+      {{in, STDIN_FILENO}, {out, STDOUT_FILENO}, {errors, STDERR_FILENO}}, POSIX_SPAWN_SETSIGMASK);
+  if (process < 0) fail(errno, "; it is in the Debian package gnuplot-nox");
   int status = 0;
   uninterrupted([&] { return waitpid(process, &status, 0); });
   return status;

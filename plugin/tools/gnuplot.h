@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "plugin/films/part_file.h"
+#include "spidar/part_file.h"
 
 namespace spidar::tools {
 

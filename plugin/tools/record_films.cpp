@@ -17,12 +17,12 @@
 
 #include "core/json_text.h"
 #include "plugin/films/file_bytes.h"
-#include "plugin/films/part_file.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/record_report.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/sidecar.h"
+#include "spidar/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/whole_file.h"

@@ -11,8 +11,8 @@
 
 #include "plugin/filter/choice/feel_file.h"
 #include "plugin/gobject/ref.h"
+#include "plugin/programs/typed_property.h"
 #include "plugin/properties/property_table.h"
-#include "plugin/properties/typed_property.h"
 #include "spidar/tools/command_line.h"
 
 namespace spidar::tools {

@@ -14,11 +14,11 @@
 #include <gst/gst.h>
 
 #include "core/default_limits.h"
-#include "plugin/films/part_file.h"
-#include "plugin/properties/own_plugins.h"
+#include "plugin/programs/own_plugins.h"
 #include "plugin/tools/film_process.h"
 #include "plugin/tools/spidartrack_commands.h"
 #include "plugin/tracks/sidecar.h"
+#include "spidar/part_file.h"
 #include "spidar/realtime/processors.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"

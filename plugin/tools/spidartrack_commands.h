@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "plugin/films/part_file.h"
 #include "plugin/tools/record_options.h"
 #include "plugin/tools/track_samples.h"
+#include "spidar/part_file.h"
 
 namespace spidar::tools {
 

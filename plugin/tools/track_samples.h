@@ -13,10 +13,10 @@
 
 #include "core/track/exchange_formats.h"
 #include "core/track/track_format.h"
-#include "plugin/films/part_file.h"
 #include "plugin/tracks/script_set.h"
 #include "plugin/tracks/track_input.h"
 #include "plugin/tracks/track_tags.h"
+#include "spidar/part_file.h"
 
 namespace spidar::tools {
 

@@ -8,17 +8,15 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <system_error>
 #include <time.h>
 #include <unistd.h>
 
+#include "spidar/child_process.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/uninterrupted.h"
-
-extern char** environ;
 
 namespace spidar::window {
 namespace {
@@ -34,34 +32,6 @@ std::string program() {
   return is_built_here ? beside.string() : installed(SPIDAR_WINDOW_PATH).string();
 }
 
-/// Starts the program with `its_end` as its standard input. This process has threads, therefore
-/// nothing but posix_spawn() happens between fork and exec; all else that is open here closes on
-/// exec. Returns errno.
-int spawn(const std::string& path, int its_end, pid_t& process) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  // Threads of this library have all signals blocked, and a program inherits that, and what its
-  // parent ignores. In a session of its own, Ctrl-C in a terminal reaches only the player.
-  sigset_t none, all;
-  sigemptyset(&none);
-  sigfillset(&all);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &all);
-  posix_spawnattr_setflags(&attributes,
-                           POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::string name = path;
-  std::array<char*, 2> arguments{name.data(), nullptr};
-  const int error =
-      posix_spawn(&process, path.c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) process = -1;
-  return error;
-}
-
 }  // namespace
 
 std::string Process::start() {
@@ -70,9 +40,12 @@ std::string Process::start() {
     return std::string("no socket: ") + std::strerror(errno);
   }
   const std::string path = program();
-  const int error = spawn(path, ends[1], process_);
+  // In a session of its own, Ctrl-C in a terminal reaches only the player.
+  process_ = start_child(path, {path}, {{ends[1], STDIN_FILENO}},
+                         POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  const int error = errno;
   ::close(ends[1]);
-  if (error == 0) {
+  if (process_ > 0) {
     socket_ = ends[0];
     return "";
   }

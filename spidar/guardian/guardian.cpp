@@ -6,8 +6,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
-#include <fcntl.h>
-#include <spawn.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
@@ -16,13 +14,12 @@
 #include <unistd.h>
 #include <utility>
 
+#include "spidar/child_process.h"
 #include "spidar/device.h"
 #include "spidar/guardian/sleep_inhibitor.h"
 #include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/uninterrupted.h"
-
-extern char** environ;
 
 namespace spidar {
 namespace {
@@ -51,30 +48,6 @@ std::vector<std::string> in_a_scope(const std::string& path) {
   if (geteuid() != 0) command.emplace_back("--user");
   command.insert(command.end(), {"--", path});
   return command;
-}
-
-/// Starts the command with `its_end` as its standard input. Returns errno.
-int spawn(std::vector<std::string> command, int its_end, pid_t& process) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, its_end, STDIN_FILENO);
-  // systemd-run would complain there, after which the guardian is started without it.
-  if (command.size() > 1) {
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-  }
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  // In a session of its own, so that Ctrl-C in a terminal reaches only the host.
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
-  std::vector<char*> arguments;
-  for (std::string& argument : command) arguments.push_back(argument.data());
-  arguments.push_back(nullptr);
-  const int error =
-      posix_spawn(&process, command[0].c_str(), &actions, &attributes, arguments.data(), environ);
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) process = -1;
-  return error;
 }
 
 int64_t seconds_from_now_ns(int seconds) {
@@ -138,9 +111,14 @@ bool Guardian::start(const std::vector<std::string>& command, const LastWill& wi
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
   socket_ = ends[0];
-  const int error = spawn(command, ends[1], process_);
+  std::vector<std::pair<int, int>> files{{ends[1], STDIN_FILENO}};
+  // systemd-run would complain there, after which the guardian is started without it.
+  if (command.size() > 1) files.emplace_back(kDevNull, STDERR_FILENO);
+  // In a session of its own, so that Ctrl-C in a terminal reaches only the host.
+  process_ = start_child(command[0], command, files, POSIX_SPAWN_SETSID);
+  const int error = errno;
   ::close(ends[1]);
-  if (error == 0) return greet(will, patience_s);
+  if (process_ > 0) return greet(will, patience_s);
   ::close(socket_);
   socket_ = -1;
   errno = error;

@@ -4,15 +4,13 @@
 #pragma once
 
 #include <array>
-#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
-#include <spawn.h>
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
 
-extern char** environ;
+#include "spidar/child_process.h"
 
 namespace spidar {
 
@@ -47,33 +45,17 @@ class SleepInhibitor {
 
  private:
   void start() noexcept {
-    std::string program = systemd_program("systemd-inhibit");
+    const std::string program = systemd_program("systemd-inhibit");
     std::array<int, 2> ends{};
     if (program.empty() || pipe2(ends.data(), O_CLOEXEC) != 0) return;
     pipe_ = ends[1];
     // Closing the lid suspends in spite of a lock of "sleep" alone (LidSwitchIgnoreInhibited).
-    std::string what = "--what=sleep:handle-lid-switch", mode = "--mode=block",
-                who = "--who=SPIDAR";
-    std::string why = "--why=The motors of a haptic device are pulling", command = "cat";
-    const std::array<char*, 7> arguments{program.data(), what.data(),    mode.data(), who.data(),
-                                         why.data(),     command.data(), nullptr};
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    sigset_t all;
-    sigfillset(&all);
-    posix_spawnattr_setsigdefault(&attributes, &all);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    if (posix_spawn(&process_, program.c_str(), &actions, &attributes, arguments.data(), environ) !=
-        0) {
-      process_ = -1;
-    }
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&actions);
+    process_ =
+        start_child(program,
+                    {program, "--what=sleep:handle-lid-switch", "--mode=block", "--who=SPIDAR",
+                     "--why=The motors of a haptic device are pulling", "cat"},
+                    {{ends[0], STDIN_FILENO}, {kDevNull, STDOUT_FILENO}, {kDevNull, STDERR_FILENO}},
+                    POSIX_SPAWN_SETSIGDEF);
     ::close(ends[0]);
   }
 

@@ -4,9 +4,9 @@
 #include <sstream>
 
 #include "core/number_text.h"
+#include "spidar/part_file.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/toml.h"
-#include "spidar/whole_file.h"
 
 namespace spidar {
 namespace {

@@ -12,6 +12,7 @@
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/usb_search.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/part_file.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/toml.h"
 #include "spidar/session/device_factory.h"

@@ -7,8 +7,8 @@
 
 #include <gst/gst.h>
 
-#include "plugin/feel/feel_bin.h"
-#include "plugin/filter/engine/stream_orientation.h"
+#include "plugin/feel/tracer/feel_bin.h"
+#include "plugin/frame/stream_orientation.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/test.h"
 #include "tests/support/video_frames.h"
@@ -310,7 +310,7 @@ class FeelBinTurns : public FeelBin, public testing::WithParamInterface<const ch
   /// Expects that the last frame was shown as this tag says, and that it needs no other turn.
   void expect_shown(const char* tag) {
     GstTagList* const tags = gst_tag_list_new(GST_TAG_IMAGE_ORIENTATION, tag, nullptr);
-    filter::StreamOrientation stored;
+    StreamOrientation stored;
     stored.update(tags);
     gst_tag_list_unref(tags);
     GstCaps* const caps = gst_pad_get_current_caps(end_);
@@ -324,7 +324,7 @@ class FeelBinTurns : public FeelBin, public testing::WithParamInterface<const ch
     if (!event) return;
     GstTagList* left = nullptr;
     gst_event_parse_tag(event, &left);
-    filter::StreamOrientation still;
+    StreamOrientation still;
     still.update(left);
     EXPECT_TRUE(still.turn().is_none());
     gst_event_unref(event);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Frames that are turned or mirrored before they are shown: the tag image-orientation.
-#include "plugin/filter/engine/stream_orientation.h"
+#include "plugin/frame/stream_orientation.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/test.h"
@@ -77,7 +77,7 @@ TEST(Orientation, TheTagOfTheStreamCountsBeforeThatOfTheFilm) {
         stream_first ? felt_with({of_stream, of_film}) : felt_with({of_film, of_stream});
     EXPECT_EQ(felt.force_N.x(), -plain.force_N.x());
   }
-  filter::StreamOrientation orientation;
+  StreamOrientation orientation;
   GstTagList* tags = orientation_tags("rotate-90", GST_TAG_SCOPE_STREAM);
   orientation.update(tags);
   gst_tag_list_unref(tags);

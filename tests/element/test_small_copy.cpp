@@ -3,7 +3,7 @@
 // The filter of spidar-feel and frames in GPU memory, by Mesa's renderer in software.
 #include <gst/gst.h>
 
-#include "plugin/feel/feel_bin.h"
+#include "plugin/feel/tracer/feel_bin.h"
 #include "plugin/gobject/ref.h"
 #include "tests/support/element_harness.h"
 #include "tests/support/test.h"

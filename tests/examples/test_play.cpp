@@ -6,8 +6,8 @@
 #include "examples/play/picture.h"
 #include "examples/play/record.h"
 #include "examples/play/report.h"
-#include "plugin/films/part_file.h"
 #include "plugin/tools/gnuplot.h"
+#include "spidar/part_file.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "numbers.h"
-#include "plugin/screen/portal_answers.h"
-#include "plugin/screen/x11_property.h"
+#include "plugin/feel/screen/portal_answers.h"
+#include "plugin/feel/screen/x11_property.h"
 
 using namespace spidar;
 using namespace spidar::screen;

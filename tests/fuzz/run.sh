@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 target=${1-}
 sources=(core/grip/{matrices,tension_solver,pose_solver,pose_fit,string_geometry}.cpp
     core/{json_text,track/funscript,track/hjif,choice/feel_rules,touch/height_field}.cpp
-    spidar/devices/*/packets.cpp spidar/profiles/{profile_file,profile_writer}.cpp spidar/whole_file.cpp
+    spidar/devices/*/packets.cpp spidar/profiles/{profile_file,profile_writer}.cpp spidar/{part_file,whole_file}.cpp
     plugin/window/view/messages.cpp)
 if [[ ! -d tests/fuzz/corpus/$target || -z $target ]]; then
     echo "error: there is no target '$target'; there are: $(cd tests/fuzz/corpus && echo ./* | tr -d ./)" >&2

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/follow/player_choice.h"
+#include "plugin/feel/follow/player_choice.h"
 
 namespace spidar::test::player_choice_test {
 namespace {

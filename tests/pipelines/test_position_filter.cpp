@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "plugin/follow/position_filter.h"
+#include "plugin/feel/follow/position_filter.h"
 
 namespace spidar::test::position_filter_test {
 namespace {

@@ -235,8 +235,8 @@ class Files(track_case.TrackCase):
     def test_messages_name_the_output_that_was_given(self):
         self.make_track()
         for name in ("b.flac", "b.hjif"):
-            self.assert_said(f"spidartrack: none/{name}: there is no folder none\n", "convert", "a.wav", f"none/{name}")
-        self.assert_said("file:///tmp/b.flac: there is no folder file:///tmp; a file name is needed",
+            self.assert_said(f"spidartrack: none/{name}: cannot be written: there is no folder none\n", "convert", "a.wav", f"none/{name}")
+        self.assert_said("file:///tmp/b.flac: cannot be written: there is no folder file:///tmp; a file name is needed",
                          "convert", "a.wav", "file:///tmp/b.flac")
 
     @track_case.needs("gnuplot")

@@ -3,7 +3,6 @@
 """For tests of spidartrack as on the command line: a folder, films and tracks in it, and the command.
 The environment names the program (SPIDARTRACK)."""
 import array
-import hashlib
 import math
 import os
 import pathlib
@@ -59,9 +58,11 @@ def read_wav(path):
 
 
 def part_name(name):
-    """What the file `name` is called while it is being written (plugin/films/part_file.h)."""
-    number = hashlib.sha1(os.fsencode(name)).hexdigest()[:16]
-    return f".part-{number}{pathlib.PurePath(name).suffix}"
+    """What the file `name` is called while it is being written (spidar/part_file.h)."""
+    number = 0xcbf29ce484222325  # FNV-1a
+    for byte in os.fsencode(name):
+        number = (number ^ byte) * 0x100000001b3 % 2**64
+    return f".part-{number:016x}{pathlib.PurePath(name).suffix}"
 
 
 class TrackCase(unittest.TestCase):

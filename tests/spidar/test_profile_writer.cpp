@@ -3,10 +3,10 @@
 // load_profile() reads back exactly what save_profile() has written.
 #include <atomic>
 #include <thread>
-#include <unistd.h>
 #include <vector>
 
 #include "spidar/devices/device_registry.h"
+#include "spidar/part_file.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/whole_file.h"
 #include "tests/spidar/calibration_samples.h"
@@ -192,20 +192,26 @@ TEST(ReplaceFile, ALinkStaysOneAndLeadsToTheNewFile) {
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
-/// What earlier processes of this number have left, as in a container, where each has the same: a
-/// part of a save that was killed, or a link, which is not followed.
-TEST(ReplaceFile, PartsThatWereLeftDoNotBlockIt) {
+TEST(ReplaceFile, WhatAKilledProcessLeftDoesNotBlockIt) {
   const Folder folder;
   const std::string file = folder.file("file"), other = folder.file("other");
-  fs::create_symlink(other, folder.file(".spidar-" + std::to_string(getpid()) + ".part"));
-  constexpr int kLeft = 2000;  // more than the saves of this program before
-  for (int i = 0; i < kLeft; ++i) {
-    fs::create_symlink(other, folder.file(".spidar-" + std::to_string(getpid()) + "-" +
-                                          std::to_string(i) + ".part"));
-  }
+  const std::string part = PartFile(file, {true, {}}).path();
+  std::ofstream(part) << "a part";
   EXPECT_NO_THROW(replace_file(file, "text"));
   EXPECT_TRUE(fs::is_regular_file(file));
+  EXPECT_FALSE(fs::exists(part));
+  fs::create_symlink(other, part);
+  EXPECT_THROW(replace_file(file, "text"), std::runtime_error);
   EXPECT_FALSE(fs::exists(other));
+}
+
+TEST(ReplaceFile, AFileThatThisProgramReadsIsReplaced) {
+  const Folder folder;
+  const std::string file = folder.file("file");
+  replace_file(file, "old");
+  note_read(file);
+  EXPECT_THROW(PartFile(file, {true, {}}), std::runtime_error);
+  EXPECT_NO_THROW(replace_file(file, "new"));
 }
 
 TEST(ReplaceFile, ThreadsThatSaveInOneFolderDoNotMeet) {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "plugin/tracks/sidecar.h"
+#include "spidar/part_file.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::filter {

@@ -17,7 +17,7 @@
 
 #include <GLFW/glfw3.h>
 
-#include "plugin/films/part_file.h"
+#include "spidar/part_file.h"
 #include "spidar/realtime/standard_descriptors.h"
 
 namespace spidar::window {

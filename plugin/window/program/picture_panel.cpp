@@ -52,7 +52,7 @@ void draw_arrow(const Brush& brush, const Arrow& arrow, ImU32 color, float margi
   if (margin > 0) brush.list.AddTriangle(corners[0], corners[1], corners[2], color, 2 * margin);
 }
 
-void draw_points(const Overlay& over, const ArrowStyle& style) {
+void draw_motion_of_points(const Overlay& over, const ArrowStyle& style) {
   const std::vector<OwnedPoint>& points = over.report.points;
   const auto at_px = [&](const ImagePoint& at) { return over.map({at.x_px, at.y_px}); };
   std::vector<Arrow> arrows = point_arrows(points, style, at_px);  // one for each point
@@ -67,7 +67,7 @@ void draw_points(const Overlay& over, const ArrowStyle& style) {
   }
 }
 
-void draw_points(const Overlay& over) {
+void draw_new_and_lost(const Overlay& over) {
   const Brush& brush = over.brush;
   const float radius = brush.px(3), width = brush.px(1);
   for (const OwnedPoint& point : over.report.points) {
@@ -222,8 +222,8 @@ void draw_picture(const Brush& brush, const Rect& panel, const ShownPicture& pic
   style.turn = report.turn;
   const Overlay over{brush, map, report, picture};
   if (report.has_area()) draw_area(over);
-  draw_points(over, style);
-  if (picture.detail) draw_points(over);
+  draw_motion_of_points(over, style);
+  if (picture.detail) draw_new_and_lost(over);
   draw_objects(over);
   const Eigen::Vector2d from_px = map(force_origin_px(report));
   const Wrench& wanted = report.frame.wrench;

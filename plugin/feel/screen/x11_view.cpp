@@ -11,9 +11,9 @@
 
 #include <gst/video/video.h>
 
-#include "plugin/follow/felt_element.h"
-#include "plugin/screen/view.h"
-#include "plugin/screen/x11_windows.h"
+#include "plugin/feel/follow/felt_element.h"
+#include "plugin/feel/screen/view.h"
+#include "plugin/feel/screen/x11_windows.h"
 
 namespace spidar::screen {
 namespace {

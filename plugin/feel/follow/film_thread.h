@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "plugin/follow/film_plan.h"
-#include "plugin/follow/followed_film.h"
+#include "plugin/feel/follow/film_plan.h"
+#include "plugin/feel/follow/followed_film.h"
 
 namespace spidar::follow {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/screen/screen.h"
+#include "plugin/feel/screen/screen.h"
 
 #include <csignal>
 #include <exception>
@@ -9,9 +9,9 @@
 
 #include <glib-unix.h>
 
-#include "plugin/follow/felt_element.h"
-#include "plugin/screen/felt_screen.h"
-#include "plugin/screen/view.h"
+#include "plugin/feel/follow/felt_element.h"
+#include "plugin/feel/screen/felt_screen.h"
+#include "plugin/feel/screen/view.h"
 
 namespace spidar::screen {
 namespace {

@@ -2,14 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #pragma once
 
-#include <optional>
-
 #include <gst/video/video.h>
 
 #include "core/orientation.h"
 #include "plugin/gobject/downstream.h"
 
-namespace spidar::filter {
+namespace spidar {
 
 inline Orientation turn_of(GstVideoOrientationMethod method) {
   switch (method) {
@@ -39,17 +37,23 @@ class StreamOrientation {
  public:
   /// Begins another stream, whose tags are not known yet.
   void begin_stream() { *this = {}; }
-  void update(const GstTagList* tags) {
-    GstVideoOrientationMethod method;
-    // The cast is safe because the function does not change the tags.
-    if (!gst_video_orientation_from_tag(const_cast<GstTagList*>(tags), &method)) return;
+  /// Returns whether the tags have one.
+  bool update(const GstTagList* tags) {
     const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
-    (of_film ? of_film_ : of_stream_) = turn_of(method);
+    // The cast is safe because the function does not change the tags.
+    return gst_video_orientation_from_tag(const_cast<GstTagList*>(tags),
+                                          of_film ? &of_film_ : &of_stream_) != FALSE;
   }
-  Orientation turn() const { return of_stream_.value_or(of_film_.value_or(Orientation())); }
+  GstVideoOrientationMethod method() const {
+    const auto method = of_stream_ == GST_VIDEO_ORIENTATION_AUTO ? of_film_ : of_stream_;
+    return method == GST_VIDEO_ORIENTATION_AUTO ? GST_VIDEO_ORIENTATION_IDENTITY : method;
+  }
+  Orientation turn() const { return turn_of(method()); }
 
  private:
-  std::optional<Orientation> of_stream_, of_film_;
+  // AUTO: there is none.
+  GstVideoOrientationMethod of_stream_ = GST_VIDEO_ORIENTATION_AUTO;
+  GstVideoOrientationMethod of_film_ = GST_VIDEO_ORIENTATION_AUTO;
 };
 
 /// Whether an element before `sink` turns the picture by the tag. The videoflip of GStreamer 1.22
@@ -63,4 +67,4 @@ inline bool follows_tag_upstream(GstPad* sink) {
   });
 }
 
-}  // namespace spidar::filter
+}  // namespace spidar

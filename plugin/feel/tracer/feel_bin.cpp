@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/feel/feel_bin.h"
+#include "plugin/feel/tracer/feel_bin.h"
 
 #include <atomic>
+#include <string>
 
 #include <gst/video/video.h>
 
-#include "plugin/feel/small_copy.h"
+#include "plugin/feel/tracer/small_copy.h"
+#include "plugin/frame/stream_orientation.h"
 #include "plugin/gobject/downstream.h"
+#include "plugin/gobject/set_text.h"
 
 using spidar::Ref;
 
@@ -32,9 +35,9 @@ struct _GstSpidarFeelBin {
   // Between `before` and `after`: the middle, that spidarmotion, or a bin that gives it small
   // copies of frames in GPU memory.
   GstElement* in_place;
-  // Of the streaming thread: how pictures are to be turned before they are shown, from the tags of
-  // the stream, and of the whole film (AUTO: there is none); and whether nothing is known to do so.
-  GstVideoOrientationMethod of_stream, of_film;
+  // Of the streaming thread: how pictures are to be turned before they are shown, and whether
+  // nothing is known to do so.
+  spidar::StreamOrientation orientation;
   bool lies;
 };
 
@@ -70,15 +73,10 @@ static bool is_felt_already(GstSpidarFeelBin* self) {
 static void set_properties(GstElement* motion, const char* properties) {
   gchar** lines = g_strsplit(properties, "\n", -1);
   for (gchar** line = lines; *line; ++line) {
-    gchar* value = strchr(*line, '=');
-    if (!value) continue;
-    *value++ = '\0';
-    if (strcmp(*line, "preset") == 0) {
-      gst_preset_load_preset(GST_PRESET(motion), value);
-    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(motion), *line)) {
-      gst_util_set_object_arg(G_OBJECT(motion), *line, value);
-    } else {
-      GST_WARNING_OBJECT(motion, "spidarmotion has no property %s", *line);
+    if (!strchr(*line, '=')) continue;
+    const std::string unknown = spidar::set_text(motion, *line);
+    if (!unknown.empty()) {
+      GST_WARNING_OBJECT(motion, "spidarmotion has no property %s", unknown.c_str());
     }
   }
   g_strfreev(lines);
@@ -274,8 +272,7 @@ static void add_flip(GstSpidarFeelBin* self) {
 
 /// Not by video-direction=auto: the videoflip of GStreamer 1.22 would turn the next film, too.
 static void turn_pictures(GstSpidarFeelBin* self) {
-  auto method = self->of_stream != GST_VIDEO_ORIENTATION_AUTO ? self->of_stream : self->of_film;
-  if (method == GST_VIDEO_ORIENTATION_AUTO) method = GST_VIDEO_ORIENTATION_IDENTITY;
+  const GstVideoOrientationMethod method = self->orientation.method();
   self->lies = method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
   if (self->lies && self->turns) add_flip(self);
   if (!self->flip) return;
@@ -286,14 +283,11 @@ static void turn_pictures(GstSpidarFeelBin* self) {
 static void take_tags(GstSpidarFeelBin* self, GstEvent* event) {
   GstTagList* tags = nullptr;
   gst_event_parse_tag(event, &tags);
-  const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
-  if (gst_video_orientation_from_tag(tags, of_film ? &self->of_film : &self->of_stream)) {
-    turn_pictures(self);
-  }
+  if (self->orientation.update(tags)) turn_pictures(self);
 }
 
 static void begin_stream(GstSpidarFeelBin* self) {
-  self->of_stream = self->of_film = GST_VIDEO_ORIENTATION_AUTO;
+  self->orientation.begin_stream();
   turn_pictures(self);
 }
 
@@ -399,7 +393,9 @@ static void gst_spidar_feel_bin_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_feel_bin_parent_class)->finalize(object);
 }
 
-static void gst_spidar_feel_bin_init(GstSpidarFeelBin*) {}
+static void gst_spidar_feel_bin_init(GstSpidarFeelBin* self) {
+  self->orientation.begin_stream();
+}
 
 static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
   GST_DEBUG_CATEGORY_INIT(gst_spidar_feel_debug, "spidarfeel", 0, "players that are felt");

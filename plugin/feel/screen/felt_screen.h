@@ -9,7 +9,7 @@
 
 #include <gst/gst.h>
 
-#include "plugin/screen/view.h"
+#include "plugin/feel/screen/view.h"
 
 namespace spidar::screen {
 

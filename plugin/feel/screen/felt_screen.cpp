@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/screen/felt_screen.h"
+#include "plugin/feel/screen/felt_screen.h"
 
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
-#include "plugin/follow/felt_element.h"
+#include "plugin/feel/follow/felt_element.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 

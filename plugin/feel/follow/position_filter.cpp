@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/position_filter.h"
+#include "plugin/feel/follow/position_filter.h"
 
 #include <algorithm>
 #include <cmath>

@@ -17,8 +17,8 @@
 #include <utility>
 #include <vector>
 
-#include "plugin/screen/portal_answers.h"
-#include "plugin/screen/view.h"
+#include "plugin/feel/screen/portal_answers.h"
+#include "plugin/feel/screen/view.h"
 
 namespace spidar::screen {
 namespace {

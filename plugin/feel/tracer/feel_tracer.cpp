@@ -22,7 +22,7 @@
 #include <gst/gst.h>
 #include <gst/gsttracer.h>
 
-#include "plugin/feel/feel_bin.h"
+#include "plugin/feel/tracer/feel_bin.h"
 #include "plugin/gobject/ref.h"
 
 #define GST_TYPE_SPIDAR_FEEL_TRACER (gst_spidar_feel_tracer_get_type())

@@ -36,6 +36,9 @@ class TypedProperty {
 /// The name in `preset=NAME`; nothing for other texts.
 std::optional<std::string> preset_of(const std::string& text);
 
+/// Sets NAME=VALUE, or loads preset=NAME. Throws tools::UsageError as the two others do.
+void set_typed(GstElement* element, const std::string& text);
+
 /// Loads a preset of `element`. Throws tools::UsageError, which lists the presets.
 void load_preset(GstElement* element, const std::string& name);
 

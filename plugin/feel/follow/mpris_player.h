@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "plugin/follow/player_choice.h"
+#include "plugin/feel/follow/player_choice.h"
 
 namespace spidar::follow {
 

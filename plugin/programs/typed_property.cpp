@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/properties/typed_property.h"
+#include "plugin/programs/typed_property.h"
 
 #include <locale>
 #include <sstream>
@@ -108,6 +108,12 @@ std::optional<std::string> preset_of(const std::string& text) {
   const std::string begin = "preset=";
   if (text.compare(0, begin.size(), begin) != 0) return std::nullopt;
   return text.substr(begin.size());
+}
+
+void set_typed(GstElement* element, const std::string& text) {
+  if (const auto preset = preset_of(text)) return load_preset(element, *preset);
+  const TypedProperty property(G_OBJECT(element), text);
+  g_object_set_property(G_OBJECT(element), property.name().c_str(), property.value());
 }
 
 void load_preset(GstElement* element, const std::string& name) {

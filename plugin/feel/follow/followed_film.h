@@ -13,8 +13,8 @@
 
 #include <gst/gst.h>
 
+#include "plugin/feel/follow/film_plan.h"
 #include "plugin/films/video_choice.h"
-#include "plugin/follow/film_plan.h"
 
 namespace spidar::follow {
 

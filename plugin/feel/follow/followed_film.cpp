@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/followed_film.h"
+#include "plugin/feel/follow/followed_film.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
+#include "plugin/feel/follow/felt_element.h"
+#include "plugin/feel/follow/position_filter.h"
 #include "plugin/films/stream_content.h"
-#include "plugin/follow/felt_element.h"
-#include "plugin/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/exchange_file.h"
 #include "spidar/realtime/monotonic.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/screen/x11_windows.h"
+#include "plugin/feel/screen/x11_windows.h"
 
 #include <X11/Xutil.h>
 #include <X11/cursorfont.h>
@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <utility>
 
-#include "plugin/screen/x11_property.h"
+#include "plugin/feel/screen/x11_property.h"
 
 namespace spidar::screen {
 namespace {

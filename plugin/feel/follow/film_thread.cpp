@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/film_thread.h"
+#include "plugin/feel/follow/film_thread.h"
 
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include "plugin/follow/felt_element.h"
+#include "plugin/feel/follow/felt_element.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar::follow {

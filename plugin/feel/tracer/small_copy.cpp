@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/feel/small_copy.h"
+#include "plugin/feel/tracer/small_copy.h"
 
 #include <algorithm>
 #include <sstream>

@@ -17,8 +17,6 @@ void mark_written(int file, const std::string& maker);
 
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
 bool is_as_written(const std::string& path, const std::string& maker);
-/// Whether `maker` has written it, also if its content has been changed.
-bool is_written_by(const std::string& path, const std::string& maker);
 
 /// A file in the folder of the file that it becomes, its target. Its name is `.part-`, a number
 /// that follows from the name of the target, and the same extension: however long the name of a
@@ -34,11 +32,12 @@ class PartFile {
     bool any = false;      ///< every regular file; if it has no name of the user, all of `maker`
     std::string maker;     ///< those that this command has written and nobody changed; empty: none
     bool is_named = true;  ///< the user has given the name of the target
+    bool is_read =
+        false;  ///< also one that this program reads (note_read()), which else is an error
   };
 
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
-  /// thread or process is writing the same file, or when the target exists and is not replaced. A
-  /// file that this program reads is never replaced (expect_not_read()).
+  /// thread or process is writing the same file, or when the target exists and is not replaced.
   PartFile(const std::filesystem::path& target, const Replaces& replaces);
   /// The part file of `target` that another process owns, which has given this one the descriptor.
   PartFile(const std::filesystem::path& target, int descriptor);
@@ -78,6 +77,10 @@ class PartFile {
   int descriptor_ = -1;
   uint64_t written_ = 0;  ///< bytes
 };
+
+/// Writes `text` to a part file of `file` and publishes it, after another thread or process that
+/// writes it. Throws std::runtime_error with the reason; the old file is unchanged then.
+void replace_file(const std::filesystem::path& file, const std::string& text);
 
 /// From now on, SIGINT, SIGTERM, SIGHUP and SIGXCPU remove all part files before they end the
 /// program, and what cannot be written is an error instead of a signal. To be called before other

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/films/part_file.h"
+#include "spidar/part_file.h"
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
+#include <cinttypes>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -19,10 +21,8 @@
 #include <sys/xattr.h>
 #include <thread>
 #include <unistd.h>
+#include <vector>
 
-#include <glib.h>
-
-#include "plugin/gobject/ref.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/whole_file.h"
 
@@ -36,17 +36,6 @@ std::string mark_of(const struct stat& file, const std::string& maker) {
          " " + std::to_string(file.st_mtim.tv_nsec);
 }
 
-}  // namespace
-
-void mark_written(int file, const std::string& maker) {
-  struct stat now {};
-  if (fstat(file, &now) != 0) return;
-  const std::string mark = mark_of(now, maker);
-  fsetxattr(file, kAttribute, mark.data(), mark.size(), 0);
-}
-
-namespace {
-
 /// Empty when there is none.
 std::string found_mark(const std::string& path) {
   constexpr size_t kMax_bytes = 256;
@@ -55,18 +44,10 @@ std::string found_mark(const std::string& path) {
   return found.substr(0, static_cast<size_t>(std::max<ssize_t>(bytes, 0)));
 }
 
-}  // namespace
-
-bool is_as_written(const std::string& path, const std::string& maker) {
-  struct stat now {};
-  return stat(path.c_str(), &now) == 0 && found_mark(path) == mark_of(now, maker);
-}
-
+/// Whether `maker` has written the file at `path`, also if its content has been changed.
 bool is_written_by(const std::string& path, const std::string& maker) {
   return found_mark(path).compare(0, maker.size() + 1, maker + " ") == 0;
 }
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -86,10 +67,10 @@ std::runtime_error failure(const fs::path& target, int error) {
   const fs::path folder = target.parent_path();
   std::error_code none;
   if (!folder.empty() && !fs::is_directory(folder, none)) {
-    return std::runtime_error(target.string() + ": there is no folder " + folder.string() +
-                              (target.string().find("://") == std::string::npos
-                                   ? ""
-                                   : "; a file name is needed, not a URI"));
+    return std::runtime_error(
+        target.string() + ": cannot be written: there is no folder " + folder.string() +
+        (target.string().find("://") == std::string::npos ? ""
+                                                          : "; a file name is needed, not a URI"));
   }
   return std::runtime_error(target.string() + ": cannot be written: " + std::strerror(error));
 }
@@ -139,12 +120,46 @@ int make_locked(const std::string& path, const fs::path& target) {
   }
 }
 
-/// The same in every process and on every machine.
+/// The same in every process and on every machine, however long the name: FNV-1a, 64 bits
+/// (draft-eastlake-fnv).
 std::string part_path(const fs::path& place) {
-  const std::string name = place.filename().string();
-  const std::string hash = taken(g_compute_checksum_for_string(G_CHECKSUM_SHA1, name.c_str(), -1));
-  const std::string part = ".part-" + hash.substr(0, 16) + place.extension().string();
-  return (place.parent_path() / part).string();
+  uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : place.filename().string()) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  }
+  char name[32];
+  std::snprintf(name, sizeof name, ".part-%016" PRIx64, hash);
+  return (place.parent_path() / name).string() + place.extension().string();
+}
+
+/// The file to write for `path`: where a link leads, so that the link stays one and leads to the
+/// new file; otherwise `path`. Throws std::runtime_error for a link that leads to nothing.
+fs::path place_of_output(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(path, error)) return path;
+  const fs::path place = fs::canonical(path, error);
+  if (!error) return place;
+  throw std::runtime_error(path.string() + ": cannot be written: it is a link to " +
+                           fs::read_symlink(path, error).string() +
+                           ", which is not there; remove the link");
+}
+
+/// Gives the open file the permissions of the one at `path`, its access control list among them,
+/// and its owner as far as this user may. Does nothing when there is none.
+void keep_permissions(int file, const std::string& path) {
+  struct stat before {};
+  if (stat(path.c_str(), &before) != 0) return;
+  // The mode comes last: a new owner takes bits away, and a group that may not be given gets none.
+  const bool has_group = fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
+  [[maybe_unused]] const int owner = fchown(file, before.st_uid, static_cast<gid_t>(-1));
+  fchmod(file, before.st_mode & (has_group ? 0777U : 0707U));
+  constexpr const char* kAcl = "system.posix_acl_access";
+  const ssize_t bytes = getxattr(path.c_str(), kAcl, nullptr, 0);
+  if (bytes <= 0) return;
+  std::vector<char> acl(static_cast<size_t>(bytes));
+  if (getxattr(path.c_str(), kAcl, acl.data(), acl.size()) == bytes) {
+    fsetxattr(file, kAcl, acl.data(), acl.size(), 0);
+  }
 }
 
 volatile std::sig_atomic_t received_signal = 0;
@@ -169,6 +184,18 @@ void await_signal(const sigset_t& signals) {
 }
 
 }  // namespace
+
+void mark_written(int file, const std::string& maker) {
+  struct stat now {};
+  if (fstat(file, &now) != 0) return;
+  const std::string mark = mark_of(now, maker);
+  fsetxattr(file, kAttribute, mark.data(), mark.size(), 0);
+}
+
+bool is_as_written(const std::string& path, const std::string& maker) {
+  struct stat now {};
+  return stat(path.c_str(), &now) == 0 && found_mark(path) == mark_of(now, maker);
+}
 
 PartFile::PartFile(const fs::path& target, const Replaces& replaces) : PartFile() {
   if (!take(target, replaces)) {
@@ -215,7 +242,7 @@ bool PartFile::take(const fs::path& target, const Replaces& replaces) {
   if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
     throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
   }
-  expect_not_read(target);
+  if (!replaces.is_read) expect_not_read(target);
   target_ = target.string();
   place_ = place_of_output(target).string();
   path_ = part_path(place_);
@@ -258,7 +285,7 @@ std::string PartFile::publish() {
   if (!is_kept && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   check_in_place();
-  expect_not_read(place_);  // it may have been read since
+  if (!replaces_.is_read) expect_not_read(place_);  // it may have been read since
   if (!may_replace()) throw failure(target_, EEXIST);
   struct stat before {};
   const bool is_there = stat(place_.c_str(), &before) == 0;
@@ -272,6 +299,21 @@ std::string PartFile::publish() {
   registry().paths.erase(path_);
   return is_there && before.st_nlink > 1 ? "what was there stays under its other names (hard links)"
                                          : "";
+}
+
+void replace_file(const fs::path& file, const std::string& text) {
+  constexpr std::chrono::milliseconds kStep{1};
+  constexpr int kLongest_steps = 2000;  // another save takes some milliseconds
+  PartFile::Replaces replaces{true, {}};
+  replaces.is_read = true;
+  auto part = PartFile::claim(file, replaces);
+  for (int step = 0; !part && step < kLongest_steps; ++step) {
+    std::this_thread::sleep_for(kStep);
+    part = PartFile::claim(file, replaces);
+  }
+  if (!part) throw std::runtime_error(file.string() + ": another process is writing it");
+  part->write(text);
+  part->publish();
 }
 
 void remove_part_files_on_signals() {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/felt_element.h"
+#include "plugin/feel/follow/felt_element.h"
 
 #include <cstdio>
 #include <stdexcept>
 
 #include <gst/pbutils/pbutils.h>
 
+#include "plugin/gobject/set_text.h"
 #include "spidar/text.h"
 
 namespace spidar::follow {
@@ -55,15 +56,9 @@ bool has_display() {
 std::string set_properties(GstElement* felt, const std::vector<std::string>& properties) {
   std::string others;
   for (const std::string& property : properties) {
-    const size_t end = property.find('=');
-    const std::string name = property.substr(0, end), value = property.substr(end + 1);
-    if (name == "preset" && GST_IS_PRESET(felt)) {
-      gst_preset_load_preset(GST_PRESET(felt), value.c_str());
-    } else if (g_object_class_find_property(G_OBJECT_GET_CLASS(felt), name.c_str())) {
-      gst_util_set_object_arg(G_OBJECT(felt), name.c_str(), value.c_str());
-    } else if (name != "debug-window") {
-      others += (others.empty() ? "" : ", ") + name;
-    }
+    const std::string unknown = set_text(felt, property);
+    if (unknown.empty() || unknown == "debug-window") continue;
+    others += (others.empty() ? "" : ", ") + unknown;
   }
   return others;
 }

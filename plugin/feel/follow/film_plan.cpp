@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/film_plan.h"
+#include "plugin/feel/follow/film_plan.h"
 
 #include <filesystem>
 #include <memory>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/properties/own_plugins.h"
+#include "plugin/programs/own_plugins.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "plugin/follow/follow.h"
+#include "plugin/feel/follow/follow.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,12 +15,12 @@
 
 #include <glib-unix.h>
 
-#include "plugin/follow/felt_element.h"
-#include "plugin/follow/film_plan.h"
-#include "plugin/follow/film_thread.h"
-#include "plugin/follow/mpris_player.h"
-#include "plugin/follow/player_choice.h"
-#include "plugin/follow/position_filter.h"
+#include "plugin/feel/follow/felt_element.h"
+#include "plugin/feel/follow/film_plan.h"
+#include "plugin/feel/follow/film_thread.h"
+#include "plugin/feel/follow/mpris_player.h"
+#include "plugin/feel/follow/player_choice.h"
+#include "plugin/feel/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
 
