@@ -13,9 +13,19 @@
 #include <vector>
 
 #include "plugin/feel/follow/film_plan.h"
-#include "plugin/feel/follow/followed_film.h"
 
 namespace spidar::follow {
+
+/// Requests of the debug window for the player.
+struct FilmWish {
+  std::optional<bool> plays;
+  std::optional<int64_t> position_ns;
+
+  void add(const FilmWish& later) {
+    if (later.plays) plays = later.plays;
+    if (later.position_ns) position_ns = later.position_ns;
+  }
+};
 
 /// Which film a player plays, and its position.
 struct FilmGoal {
