@@ -29,7 +29,6 @@
 #include "plugin/tools/gnuplot.h"
 #include "spidar/part_file.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/mark_files.h"
 #include "spidar/whole_file.h"
 
 namespace fs = std::filesystem;

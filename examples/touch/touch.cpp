@@ -26,7 +26,6 @@
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/part_file.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/mark_files.h"
 #include "spidar/whole_file.h"
 
 namespace fs = std::filesystem;

@@ -27,13 +27,12 @@
 #include "plugin/programs/own_plugins.h"
 #include "plugin/programs/software_gl.h"
 #include "plugin/programs/typed_property.h"
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"
-#include "spidar/tools/mark_files.h"
 
 namespace spidar {
 namespace {

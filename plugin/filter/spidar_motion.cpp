@@ -52,7 +52,7 @@
 #include "plugin/frame/frame_fields.h"
 #include "plugin/gobject/structure_fields.h"
 #include "plugin/properties/property_table.h"
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 
 GST_DEBUG_CATEGORY(gst_spidar_motion_debug);
 #undef GST_CAT_DEFAULT

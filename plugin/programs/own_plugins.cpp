@@ -10,7 +10,7 @@
 #include <gst/gst.h>
 
 #include "plugin/gobject/ref.h"
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 
 namespace spidar {
 namespace {

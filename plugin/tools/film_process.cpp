@@ -32,7 +32,7 @@
 #include "plugin/tracks/track_summary.h"
 #include "plugin/tracks/track_tags.h"
 #include "spidar/child_process.h"
-#include "spidar/own_program.h"
+#include "spidar/folders.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/tools/command_line.h"
 

@@ -22,7 +22,7 @@
 #include "spidar/realtime/processors.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/tools/cli_program.h"
-#include "spidar/tools/mark_files.h"
+#include "spidar/tools/command_line.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "plugin/films/file_pipeline.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/tracks/name_form.h"
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 
 namespace spidar {
 namespace {

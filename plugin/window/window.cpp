@@ -25,7 +25,7 @@
 #include "plugin/window/view/channel.h"
 #include "plugin/window/view/shared_pictures.h"
 #include "spidar/child_process.h"
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/realtime/uninterrupted.h"
 

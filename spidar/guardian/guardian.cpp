@@ -16,8 +16,8 @@
 
 #include "spidar/child_process.h"
 #include "spidar/device.h"
+#include "spidar/folders.h"
 #include "spidar/guardian/sleep_inhibitor.h"
-#include "spidar/install_folder.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/uninterrupted.h"
 

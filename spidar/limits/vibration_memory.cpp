@@ -17,11 +17,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "spidar/folders.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/thread_setup.h"
 #include "spidar/realtime/uninterrupted.h"
 #include "spidar/transports/transport.h"
-#include "spidar/user_folder.h"
 
 namespace spidar {
 namespace {

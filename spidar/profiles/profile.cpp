@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/whole_file.h"
 

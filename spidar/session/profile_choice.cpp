@@ -11,12 +11,12 @@
 
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/usb_search.h"
+#include "spidar/folders.h"
 #include "spidar/link/board_parts.h"
 #include "spidar/part_file.h"
 #include "spidar/profiles/profile_file.h"
 #include "spidar/profiles/toml.h"
 #include "spidar/session/device_factory.h"
-#include "spidar/user_folder.h"
 #include "spidar/whole_file.h"
 
 namespace spidar {

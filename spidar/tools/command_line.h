@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the command-line programs print when something is wrong, and how they end.
+/// What the command-line programs do alike: how they take their arguments and how they end.
 #pragma once
 
 #include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <deque>
+#include <filesystem>
 #include <iostream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace spidar::tools {
 
@@ -35,6 +39,21 @@ inline int status_after_printing(const std::string& program, int status) {
     std::cerr << program << ": what is printed cannot be written; is the disk full?\n";
   }
   return status == kDone ? kFailed : status;
+}
+
+/// Puts "./" before names of files that begin with a dash, so that they are not taken for options:
+/// the name has a point, and the file exists. Arguments after "--" may be properties.
+inline void mark_files(int argc, char** argv, bool has_properties_last = true) {
+  static std::deque<std::string> marked;  // lives as long as argv
+  for (int i = 1; i < argc; ++i) {
+    if (has_properties_last && std::strcmp(argv[i], "--") == 0) return;
+    std::error_code none;
+    if (argv[i][0] != '-' || !std::strchr(argv[i], '.') ||
+        !std::filesystem::exists(argv[i], none)) {
+      continue;
+    }
+    argv[i] = marked.emplace_back(std::string("./") + argv[i]).data();
+  }
 }
 
 }  // namespace spidar::tools

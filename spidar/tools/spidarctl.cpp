@@ -16,8 +16,8 @@
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
+#include "spidar/tools/command_line.h"
 #include "spidar/tools/device_command.h"
-#include "spidar/tools/mark_files.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::tools {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::install_folder_test {

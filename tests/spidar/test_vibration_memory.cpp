@@ -9,9 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "spidar/folders.h"
 #include "spidar/limits/vibration_memory.h"
 #include "spidar/realtime/monotonic.h"
-#include "spidar/user_folder.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 

@@ -14,10 +14,10 @@
 #include "spidar/devices/falcon/emulated.h"
 #include "spidar/devices/falcon/kinematics.h"
 #include "spidar/devices/falcon/packets.h"
+#include "spidar/folders.h"
 #include "spidar/link/board_parts.h"
 #include "spidar/link/device_kind.h"
 #include "spidar/link/spring_hand.h"
-#include "spidar/user_folder.h"
 #include "spidar/whole_file.h"
 
 namespace spidar::boards {

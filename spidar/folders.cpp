@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/install_folder.h"
+#include "spidar/folders.h"
 
+#include <array>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <elf.h>
 #include <link.h>
+#include <pwd.h>
 #include <sys/auxv.h>
 #include <system_error>
-
-#include "spidar/own_program.h"
+#include <unistd.h>
 
 namespace spidar {
 namespace {
@@ -27,6 +28,12 @@ fs::path without_end(const fs::path& folder, const fs::path& end) {
 }
 
 }  // namespace
+
+const char* own_program() noexcept {
+  constexpr const char* kByKernel = "/proc/self/exe";
+  const bool has_proc = access(kByKernel, F_OK) == 0;
+  return has_proc ? kByKernel : reinterpret_cast<const char*>(getauxval(AT_EXECFN));
+}
 
 fs::path own_file() {
   Dl_info info{};
@@ -70,6 +77,31 @@ std::vector<fs::path> listed_folders(const char* name) {
     rest.erase(0, end == std::string::npos ? end : end + 1);
   }
   return folders;
+}
+
+namespace {
+
+fs::path named(const char* variable) {
+  const char* const value = secure_getenv(variable);
+  return value ? value : "";
+}
+
+fs::path home() {
+  fs::path folder = named("HOME");
+  if (folder.is_absolute()) return folder;
+  std::array<char, 16384> text{};  // more than _SC_GETPW_R_SIZE_MAX
+  passwd entry{}, *found = nullptr;
+  getpwuid_r(geteuid(), &entry, text.data(), text.size(), &found);
+  return found && found->pw_dir ? found->pw_dir : "";
+}
+
+}  // namespace
+
+fs::path user_folder(const char* variable, const char* below_home) {
+  fs::path folder = named(variable);
+  if (folder.is_absolute()) return folder;
+  folder = home();
+  return folder.is_absolute() ? folder / below_home : fs::path();
 }
 
 }  // namespace spidar
