@@ -76,8 +76,7 @@ class OneEuroFilter {
 /// compares other values.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
-  /// Hz for each px/s² of the reference frame, finite and ≥ 0.
-  double beta_s_px = 0.08;
+  double beta_s_px = 0.08;   ///< Hz for each px/s² of the reference frame, finite and ≥ 0
 };
 
 /// Throws std::invalid_argument when a value is out of range.

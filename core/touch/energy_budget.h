@@ -21,8 +21,7 @@ struct ForcePath {
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
   /// How long a force is held until the next one. The next tick may be late.
   double tick_s = 0.001;
-  /// The longest tick that counts in the safety chain's slew limit.
-  double longest_tick_s = 0.002;
+  double longest_tick_s = 0.002;  ///< the longest tick that counts in the safety chain's slew limit
 };
 
 /// Limits the energy that a contact returns to the hand: tracks the energy that the contact has

@@ -12,8 +12,7 @@ namespace spidar::touch {
 
 struct SurfacePoint {
   double z_m = 0;
-  /// dz/dx and dz/dy, without a unit.
-  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();  ///< dz/dx and dz/dy, without a unit
 
   /// Unit normal, towards the viewer.
   Eigen::Vector3d normal() const noexcept {

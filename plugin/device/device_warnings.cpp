@@ -27,8 +27,7 @@ constexpr int64_t kPoseLost_ns = 500'000'000;
 /// A force that comes so much later is not felt as part of its picture: people notice a delay from
 /// 45 ms on, as a mean (docs/feeling.md).
 constexpr int64_t kPointless_ns = 40'000'000;
-/// A moment without frames is not reported.
-constexpr int64_t kLasting_ns = 2'000'000'000;
+constexpr int64_t kLasting_ns = 2'000'000'000;  ///< a moment without frames is not reported
 
 /// Returns why the device was lost, with the last fault of the link, if there is a link.
 std::string why_lost(const HapticSession& session) {

@@ -8,8 +8,7 @@
 namespace spidar {
 namespace {
 
-/// Shorter arrows are drawn as dots.
-constexpr double kShortest_px = 1.0;
+constexpr double kShortest_px = 1.0;  ///< shorter arrows are drawn as dots
 /// Length of the head: the smaller of this fraction of the arrow and this many shaft widths.
 constexpr double kHeadFraction = 0.5;
 constexpr double kHeadWidths = 4.0;

@@ -22,8 +22,7 @@ constexpr double kNumberFraction = 0.035;
 /// below 0 N, and from 0 N to the end of the axis; also the gap to the right edge.
 constexpr double kStripFraction = 0.17, kBelowFraction = 0.02, kCurveFraction = 0.12;
 constexpr double kCurveEnd = 0.985;
-/// How much of the picture shows through the strip.
-constexpr double kStripOpacity = 0.5;
+constexpr double kStripOpacity = 0.5;  ///< how much of the picture shows through the strip
 
 cv::Scalar bgra(Rgb color) {
   return {static_cast<double>(color.b), static_cast<double>(color.g), static_cast<double>(color.r),

@@ -21,8 +21,7 @@
 namespace spidar::tracks {
 namespace {
 
-/// For HJIF: a track of 24 hours has less.
-constexpr size_t kMaxText_bytes = size_t{1} << 30;
+constexpr size_t kMaxText_bytes = size_t{1} << 30;  ///< for HJIF: a track of 24 hours has less
 
 /// A track that is in memory as a whole.
 class ExchangeTrack : public OpenTrack {

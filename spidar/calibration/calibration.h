@@ -24,8 +24,7 @@ struct Settings {
 
 enum class Status {
   kSolved,
-  /// The motion does not determine all parameters that were requested.
-  kUndetermined,
+  kUndetermined,  ///< the motion does not determine all parameters that were requested
   /// No parameters make the lengths agree, or the remaining errors are not noise: the geometry or
   /// the scale is wrong, a string slips, or the first sample was too far from the centre.
   kContradiction,
@@ -43,8 +42,7 @@ struct Result {
   /// because that would be a different choice of D.
   std::array<Eigen::Vector3d, kMaxStrings> exit_m{};
 
-  /// The pose of the grip at which the counters were zero.
-  Pose cleared_at;
+  Pose cleared_at;  ///< the pose of the grip at which the counters were zero
 
   int samples = 0;  ///< successive samples that agree are averaged and count once
   /// Root mean square length error over samples and strings, including outliers;

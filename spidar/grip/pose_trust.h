@@ -56,8 +56,7 @@ class PoseTrust {
   static constexpr int64_t kPoseTimeout_ns = 50'000'000;
   /// The number of good poses in a row before the pose is trusted again.
   static constexpr int kGoodPoses = 20;
-  /// No hand is faster.
-  static constexpr double kMaxSpeed_m_s = 10;
+  static constexpr double kMaxSpeed_m_s = 10;  ///< no hand is faster
   /// Allows for noise of the pose, and for the time between reading the sensors and the clock.
   static constexpr double kJumpMargin_m = 2e-3;
 

@@ -31,8 +31,7 @@ enum class CountZero {
 
 struct Settings {
   CountZero count_zero = CountZero::kByProfile;
-  /// A separate process sets the motors to zero when this one is killed.
-  bool guardian = true;
+  bool guardian = true;  ///< a separate process sets the motors to zero when this one is killed
   /// A separate thread makes the exchanges; otherwise exchange() blocks until the board answers.
   bool threaded = true;
 };

@@ -41,8 +41,7 @@ struct StringDrive {
   /// The tension that the motor can exert continuously without overheating, N. 0 means that the
   /// source does not state it; half of max_tension_N is used.
   double continuous_tension_N = 0;
-  /// Time constant of the winding's temperature, s.
-  double heating_time_s = kHeatingTime_s;
+  double heating_time_s = kHeatingTime_s;  ///< time constant of the winding's temperature, s
 
   static constexpr double kHeatingTime_s = 20;
 

@@ -158,8 +158,7 @@ constexpr int kMaxDacBits = 16;
 constexpr double kMinSteps = 16;
 // No string of a hand-held device pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
-// A weaker string moves no grip.
-constexpr double kMinTension_N = 0.1;
+constexpr double kMinTension_N = 0.1;  // a weaker string moves no grip
 // No limit bounds the force of the strings at rest, which off the centre is about the pull of one.
 constexpr double kMaxRest_N = kDefaultForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.

@@ -25,8 +25,7 @@ constexpr int64_t kAhead_ns = 20 * kTick_ns;
 /// How long a wrench lasts if the next one is late; then the loop ramps to zero.
 constexpr int64_t kHold_ns = 10 * kTick_ns;
 constexpr double kOpening_s = 2;
-/// A longer pause makes a period unusable.
-constexpr double kLongestGap_s = 0.01;
+constexpr double kLongestGap_s = 0.01;  ///< a longer pause makes a period unusable
 
 /// Rises from 0 to 1 and falls back to 0 in a period, with zero slope at both ends.
 double envelope(double time_s) {

@@ -92,8 +92,7 @@ constexpr double kShortestDelay_s = -0.001;
 /// The search goes beyond kLongestLag_s to recognise a lag that is too long.
 constexpr double kScanTo_s = 2 * kLongestLag_s;
 constexpr double kScan_s = 5e-5;
-/// Half-width of the confidence interval in standard errors.
-constexpr double kDeviations = 3;
+constexpr double kDeviations = 3;  ///< half-width of the confidence interval in standard errors
 /// The fewest lines that must be at least three times above the noise.
 constexpr int kFewestLines = 8;
 /// Systematic error, the same in every period, as a fraction of the response: geometry, the
@@ -101,8 +100,7 @@ constexpr int kFewestLines = 8;
 constexpr double kSystematic = 0.005;
 /// Noise cannot explain a larger misfit.
 constexpr double kMaxMisfit = 3;
-/// The coefficients of the denominator, and the delay.
-constexpr int kUnknowns = 5;
+constexpr int kUnknowns = 5;  ///< the coefficients of the denominator, and the delay
 
 struct LagCandidate {
   double lag_s = 0;

@@ -94,8 +94,7 @@ class ShakeWatch {
   /// kg as fast at 30 Hz; the steps of an encoder give errors of 1.5 mm/s.
   static constexpr double kMin_m_s = 0.008;
   static constexpr double kStroke_m_s = 0.05;
-  /// This many even intervals in a row count as shaking.
-  static constexpr int kIntervals = 8;
+  static constexpr int kIntervals = 8;  ///< this many even intervals in a row count as shaking
   /// The fraction of the stiffness that is left after each shaking.
   static constexpr double kLeft = 0.7;
   static constexpr double kMinFraction = 0.1;

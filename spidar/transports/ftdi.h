@@ -18,13 +18,11 @@ struct VendorRequest {
 
 namespace ftdi {
 
-/// bmRequestType of all requests below.
-constexpr uint8_t kRequestType = 0x40;
+constexpr uint8_t kRequestType = 0x40;  ///< bmRequestType of all requests below
 /// The chip puts this many bytes in front of each packet, and sends a packet of only these when its
 /// latency timer ends before data was received.
 constexpr size_t kStatusSize = 2;
-/// Largest packet of a full-speed chip, bytes.
-constexpr size_t kPacketSize = 64;
+constexpr size_t kPacketSize = 64;  ///< largest packet of a full-speed chip, bytes
 
 constexpr uint8_t kModemControl = 1, kSetBaud = 3;
 constexpr VendorRequest kDropReceived{0, 1};

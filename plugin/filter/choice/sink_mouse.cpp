@@ -13,8 +13,7 @@
 namespace spidar::filter {
 namespace {
 
-// X sinks send the wheel as buttons.
-constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;
+constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;  // X sinks send the wheel as buttons
 
 /// The mouse may be beside the picture, in the black bars of a window.
 double fraction(double at_px, int size_px) {

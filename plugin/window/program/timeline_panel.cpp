@@ -41,8 +41,7 @@ std::string film_time(int64_t ns) {
   return time_text(ns / kSecond_ns * kSecond_ns);
 }
 
-/// The part of the panel with the whole film.
-constexpr double kStrip_px = 9, kMinMark_px = 4;
+constexpr double kStrip_px = 9, kMinMark_px = 4;  ///< the part of the panel with the whole film
 
 Rect mark_rect(const Brush& brush, const Rect& position, const FilmStrip& strip,
                const StripMark& mark) {

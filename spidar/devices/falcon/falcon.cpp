@@ -76,8 +76,7 @@ namespace {
 
 /// The published program says hello up to a hundred times; few are needed.
 constexpr int kHellos = 10;
-/// The published firmware files have 7 to 9 kB.
-constexpr size_t kMaxFirmware = 65'536;
+constexpr size_t kMaxFirmware = 65'536;  ///< the published firmware files have 7 to 9 kB
 
 std::string firmware_path() {
   if (const char* named = secure_getenv("SPIDAR_FALCON_FIRMWARE"); named && *named) return named;

@@ -21,8 +21,7 @@ constexpr double kBaseOut_m = 0.0400;    // r, from the middle of the base to an
 constexpr double kBaseAside_m = -0.02309;
 constexpr double kFirstArm_rad = M_PI / 2 + M_PI / 12;  // the others follow clockwise
 
-/// Doubles do not resolve the constraints below this step.
-constexpr double kStepDone_m = 1e-9;
+constexpr double kStepDone_m = 1e-9;  ///< doubles do not resolve the constraints below this step
 /// Rows whose |det| is smaller count as dependent: within kReach_m the |det| is above 0.17.
 constexpr double kMinDeterminant = 0.05;
 

@@ -52,8 +52,7 @@ inline constexpr std::array kRunLine{ftdi::latency_ms(1), ftdi::baud_divisor(kRu
 constexpr size_t kPacketSize = 16;
 using Packet = std::array<uint8_t, kPacketSize>;
 
-/// The largest digit of a motor, which has 12 bits and a sign.
-constexpr int kMostDigit = 4095;
+constexpr int kMostDigit = 4095;  ///< the largest digit of a motor, which has 12 bits and a sign
 /// Digits of a motor per N m at its arm; positive digits pull the arm towards the base. The number
 /// is libnifalcon's; nobody states how it was measured.
 constexpr double kDigitsPerNm = -10000;

@@ -23,8 +23,7 @@ namespace {
 /// to zero, and the other drivers do not change it. Linux provides no way to read it.
 constexpr std::array<std::string_view, 2> kCentringDrivers{"hid-generic", "hid-universal-pidff"};
 
-/// The capacity of ff::Position::buttons.
-constexpr size_t kMaxButtons = 32;
+constexpr size_t kMaxButtons = 32;  ///< the capacity of ff::Position::buttons
 
 LinkFault fault_of_input(int error) noexcept {
   switch (error) {

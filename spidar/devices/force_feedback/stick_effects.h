@@ -44,8 +44,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
     /// The fraction of the device's strength that is used, at most 1. 0 means kDefaultGain, or 1
     /// for a device that only rumbles.
     double gain = 0;
-    /// Whether the driver reverses the force, to the right and up.
-    std::array<bool, 2> flipped{};
+    std::array<bool, 2> flipped{};  ///< whether the driver reverses the force, to the right and up
   };
 
   enum class Updates {

@@ -32,8 +32,7 @@ constexpr double kReach_m = 0.1;
 /// Every true position is nearer to the foot of the device; a larger number is in another unit.
 constexpr double kFarthest_m = 1;
 constexpr int kButtons = 3;
-/// Longest message to the service.
-constexpr size_t kCommandSize = 512;
+constexpr size_t kCommandSize = 512;  ///< longest message to the service
 /// The capacity for the state of more devices than a computer has, with their configuration.
 constexpr size_t kStateSize = 65536;
 

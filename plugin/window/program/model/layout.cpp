@@ -21,8 +21,7 @@ constexpr double kGap_px = 8;
 constexpr double kPlotWidth_px = 140, kPlotHeight_px = 104, kControls_px = 236;
 constexpr double kGripHeight_px = 104, kTensionsHeight_px = 92;
 
-// The view is turned about y, then tilted, radians.
-constexpr double kTurn = 0.4, kTilt = 0.3;
+constexpr double kTurn = 0.4, kTilt = 0.3;  // the view is turned about y, then tilted, radians
 /// The part of the panel for the exits of the strings; the rest is for their numbers.
 constexpr double kFilled = 0.8;
 

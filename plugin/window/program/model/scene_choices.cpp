@@ -10,8 +10,7 @@ namespace spidar::window {
 namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
-/// More than two frames of any film are apart.
-constexpr int64_t kLongestFrame_ns = 1'000'000'000;
+constexpr int64_t kLongestFrame_ns = 1'000'000'000;  ///< more than two frames of any film are apart
 
 /// The begin of the millisecond: a rule from there on holds for the frame.
 int64_t whole(int64_t ns) {
