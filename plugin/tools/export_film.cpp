@@ -207,9 +207,11 @@ class ExportedFilm {
   /// `file` is what the page plays, and `unplayed` why some browser does not.
   std::string html(const std::string& url, const std::string& file, double more_s,
                    const std::string& unplayed) {
-    return page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
-                      1e-9 * static_cast<double>(condition_.later_ns) + more_s, unplayed,
-                      tolerance_N_);
+    const FilmPage::Html html =
+        page_.html(url, fs::path(film_).filename(), is_webm(file) ? "video/webm" : "video/mp4",
+                   1e-9 * static_cast<double>(condition_.later_ns) + more_s, unplayed);
+    tolerance_N_ = html.tolerance_N;
+    return html.text;
   }
 
   /// Returns what is missing, for the end of the line.

@@ -136,8 +136,9 @@ void FilmPage::set_boxes(const std::vector<FeltBox>& boxes) {
   }
 }
 
-std::string FilmPage::html(const std::string& url, const std::string& name, const std::string& type,
-                           double later_s, const std::string& unplayed, double& tolerance_N) const {
+FilmPage::Html FilmPage::html(const std::string& url, const std::string& name,
+                              const std::string& type, double later_s,
+                              const std::string& unplayed) const {
   constexpr double kCoarser = 1.25;
   // In a picture from -1 to 1: half a per cent of the picture, the width of the drawn line.
   double edges_off = 2 * 0.005;
@@ -154,7 +155,7 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
                 {"most_N", most_N},
                 {"box_step_s", static_cast<double>(kBoxStep_samples) / kTrackRate_Hz},
                 {"is_felt", largest_N_ >= kFeltForce_N}};
-  std::string html;
+  Html html;
   // The precision begins at what a hand can feel, and becomes coarser until a long film fits.
   for (double lines_N = kFeltForce_N / 2;; lines_N *= kCoarser) {
     track["force"] = Json::array();
@@ -168,10 +169,10 @@ std::string FilmPage::html(const std::string& url, const std::string& name, cons
       if (edges_off < kMaxOff) track["box"].push_back(curve_text(edge, edges_off, 1));
     }
     edges_off *= kCoarser;
-    html = page;
-    html.replace(at, place.size(), script_json(track));
-    tolerance_N = lines_N + most_N / kSteps / 2;
-    if (html.size() < kMax_bytes || lines_N > 2 * most_N) return html;
+    html.text = page;
+    html.text.replace(at, place.size(), script_json(track));
+    html.tolerance_N = lines_N + most_N / kSteps / 2;
+    if (html.text.size() < kMax_bytes || lines_N > 2 * most_N) return html;
   }
 }
 

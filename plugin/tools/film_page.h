@@ -35,6 +35,11 @@ class FilmPage {
   /// The curves become coarser until the page is smaller than this, which mail and chat accept.
   static constexpr size_t kMax_bytes = 100'000;
 
+  struct Html {
+    std::string text;
+    double tolerance_N = 0;  ///< largest error of the shown force along an axis
+  };
+
   /// Adds the next millisecond of the track. Values that are not finite count as 0.
   void add(const TrackSample& sample);
 
@@ -45,9 +50,8 @@ class FilmPage {
   /// Returns a page for browsers that plays a film with its force. `url` is the address of the
   /// film, relative to the page, `name` its name for people, `type` its MIME type. The film shows
   /// its pictures `later_s` seconds later than the track says. `unplayed` is why_no_browser().
-  /// `tolerance_N` becomes the largest error of the shown force along an axis.
-  std::string html(const std::string& url, const std::string& name, const std::string& type,
-                   double later_s, const std::string& unplayed, double& tolerance_N) const;
+  Html html(const std::string& url, const std::string& name, const std::string& type,
+            double later_s, const std::string& unplayed) const;
 
  private:
   /// Boxes are shown at the rate of a screen.

@@ -15,13 +15,12 @@ struct DeviceIdentity {
   std::string serial;  ///< empty if the device has none
   std::string place;   ///< where the device is connected: a port, or an address; empty if unknown
 
-  /// The same model and serial number or, without one, in the same place. A device with neither
-  /// cannot be told from others, and is never the same.
-  bool operator==(const DeviceIdentity& other) const {
+  /// Whether both are certainly the same device: the same model and serial number or, without one,
+  /// the same place. Nothing distinguishes a device with neither from others.
+  bool is_certainly(const DeviceIdentity& other) const {
     if (model != other.model || serial != other.serial) return false;
     return !serial.empty() || (!place.empty() && place == other.place);
   }
-  bool operator!=(const DeviceIdentity& other) const { return !(*this == other); }
 
   std::string text() const {
     if (!serial.empty()) return model + ", serial number " + serial;
@@ -35,7 +34,7 @@ struct DeviceIdentity {
 class FirstDevice {
  public:
   bool known() const noexcept { return first_.has_value(); }
-  bool is(const DeviceIdentity& found) const { return first_ && *first_ == found; }
+  bool is(const DeviceIdentity& found) const { return first_ && first_->is_certainly(found); }
   std::string text() const { return first_ ? first_->text() : ""; }
 
   /// Call this when a device has been opened: throws other() unless it is the first device.
