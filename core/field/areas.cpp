@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector2i;
 
-/// With less than a block, nothing is left of an area: px of the coarse picture.
+/// A coarse block with less than the area of a block counts as empty: px of the coarse picture.
 constexpr int kMinPixels = kBlockArea_px / (kCoarser * kCoarser);
 
 }  // namespace
@@ -27,7 +27,7 @@ void Areas::leave_out_corners(const BlockField& field) {
   const BlockGrid& grid = field.grid();
   for (size_t i = 0; i < grid.size(); ++i) {
     if (!field.blocks()[i].has_corners()) continue;
-    // All pixels of which it has a part.
+    // Every pixel that the block touches.
     const Vector2i begin_px = grid.corner_of(i) / kCoarser;
     const Vector2i end_px =
         (grid.corner_of(i) + Vector2i::Constant(kBlock_px + kCoarser - 1)) / kCoarser;
@@ -39,7 +39,8 @@ void Areas::leave_out_corners(const BlockField& field) {
   }
 }
 
-/// The best of rest and the motions of the coarse blocks that an area overlaps or touches.
+/// The best match among rest and the motions of the blocks of the coarse field that this one
+/// overlaps or touches.
 BlockMatch Areas::best_match(const CoarseField& coarse, const Vector2i& corner_px) const {
   const BlockPixels here = pixels_at(coarse.now, corner_px);
   const BlockPixels counted = pixels_at(counted_, corner_px);

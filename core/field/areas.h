@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How areas of several blocks move: in a picture out of focus, or of ice, no single block shows
-/// it.
 #pragma once
 
 #include <vector>
@@ -11,16 +9,16 @@
 
 namespace spidar {
 
-/// Areas of kCoarser × kCoarser blocks, each of which overlaps its neighbours by half, as measured
-/// in the coarse picture. A block with corners is left out: it shows by itself how it moves, and
-/// may belong to an object in front of the wall whose motion is wanted. An area of which nothing is
-/// left has no structure.
+/// Coarse blocks of kCoarser × kCoarser blocks, which overlap their neighbours by half, measured in
+/// the coarse picture: in a picture out of focus, or of ice, no single block shows the motion.
+/// Blocks with corners are left out: their own motion is visible, and they may belong to an object
+/// in front of the wall whose motion is wanted. An empty coarse block has no structure.
 class Areas {
  public:
-  /// Allocates what find() needs for pictures of this size: it may be needed long after the first.
+  /// Allocates what find() needs for pictures of this size, perhaps long after the first.
   void reserve(const BlockField& field);
-  /// Measures the areas. Lengths are in pixels of the field's picture, structure in (grey / px)² of
-  /// the coarse one. There are no areas while the field stands still. Valid until the next call.
+  /// Measures the coarse blocks. Lengths are in pixels of the field's picture, structure in (grey /
+  /// px)² of the coarse one. There are none while the field stands still.
   const std::vector<MotionBlock>& find(const BlockField& field);
 
  private:
@@ -28,11 +26,11 @@ class Areas {
   BlockMatch best_match(const CoarseField& coarse, const Eigen::Vector2i& corner_px) const;
 
   std::vector<MotionBlock> areas_;
-  PaddedImage counted_;  ///< of the coarse picture: 255; 0 where a block with corners is
+  PaddedImage counted_;  ///< of the coarse picture: 255, and 0 in a block with corners
 };
 
-/// Factor of a limit of texture, in (grey / px)², for an area: the noise of a pixel of the coarse
-/// picture is kCoarser times less than that of the field's.
+/// Factor of a limit of texture, in (grey / px)², for a coarse block: the noise of a pixel of the
+/// coarse picture is kCoarser times less than that of the field's.
 constexpr float kAreaTextureScale = 1.0f / (kCoarser * kCoarser);
 
 }  // namespace spidar

@@ -16,8 +16,7 @@ namespace spidar {
 namespace {
 
 // A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
-// become the two (2 a + b) / 3 and (b + 2 c) / 3. In two dimensions the weights are 4, 2, 2 and 1
-// ninths.
+// become the two (2 a + b) / 3 and (b + 2 c) / 3. In 2D the weights are 4, 2, 2 and 1 ninths.
 
 /// ninth(v) = (v + 4) / 9 for v ≤ 9 · 255, as a multiplication: 65536 / 9 rounded up is 7282, whose
 /// error of 2 / 65536 / 9 a unit is below 0.01 at 2299.
@@ -56,8 +55,8 @@ void store_pairs(const Thirds& outer, const Thirds& middle, uint8_t* to) {
   cv::v_store_interleave(to, left, right);
 }
 
-/// The two rows of the reduced picture that three rows of the image give. The last vectors end
-/// beyond the picture, in what repeat_border() overwrites.
+/// Computes the two rows of the reduced picture for three rows of the image. The last vectors end
+/// beyond the picture, where repeat_border() overwrites them.
 void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
   static_assert(PaddedImage::kPad_px >= 32, "a vector ends within the padding");
   for (int x = 0; x < width; x += 32) {
@@ -178,15 +177,15 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector2i;
 
-/// A block is lost if what it differs from its best match is more than this fraction of what it
-/// differs from its own mean: the match shows something else.
+/// A block is lost if its difference from the best match is more than this fraction of the
+/// difference from its own mean: the match shows something else.
 constexpr double kFoundElsewhere = 0.5;
-/// Fraction of the textured blocks that are lost at a cut.
+/// The fraction of the textured blocks that are lost at a cut.
 constexpr double kLostAtCut = 0.8;
-/// Fraction of the textured blocks that are found again even where noise hides that of most others.
+/// The fraction of the textured blocks that are found again even where noise hides most others.
 constexpr double kBestFraction = 0.02;
-/// Mean difference that noise may make: that of σ = 5.3. With 8, another part of a synthetic
-/// texture, which looks alike everywhere, is taken for the same part with noise.
+/// The largest mean difference by noise: that of σ = 5.3. With 8, another part of a synthetic
+/// texture, which looks alike everywhere, would count as the same part with noise.
 constexpr int kMaxNoise_grey = 6;
 
 double squared(double value) {
@@ -201,7 +200,7 @@ bool is_finite_motion(const Vector2f& moved_px) {
 /// A position between pixels.
 struct Position {
   Vector2i pixel;
-  Vector2i fraction;  ///< of kFractionOne
+  Vector2i fraction;  ///< in units of kFractionOne
 
   Position(const Vector2i& begin_px, const Vector2f& moved_px) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -228,8 +227,8 @@ void BlockField::reduce(const PaddedImage& base) {
   coarse_.now.repeat_border();
 }
 
-/// Nothing but the picture is known. Nothing of what was before a cut is left, either, so that an
-/// analysis that begins before a cut goes on behind it as every other one does.
+/// Nothing but the picture is known. Nothing from before a cut remains, so an analysis that begins
+/// before a cut continues behind it like any other.
 void BlockField::begin() {
   has_picture_ = true;
   pictures_back_ = 0;
@@ -277,8 +276,8 @@ void BlockField::measure_noise() {
 }
 
 /// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
-/// textured blocks are lost. In a picture that moves, however fast, some blocks still match. What
-/// the best of them differ by is noise, up to kMaxNoise_grey. The noise of both pictures is part
+/// textured blocks are lost. In a picture that moves, however fast, some blocks still match. The
+/// difference of the best ones is noise, up to kMaxNoise_grey. The noise of both pictures is part
 /// of each difference, and that of one of them part of each contrast.
 bool BlockField::is_cut() {
   int64_t between = 0;
@@ -350,8 +349,8 @@ bool BlockField::is_in_reach(const Vector2i& corner_px) const {
 size_t BlockField::origin_of(size_t index) const {
   const Vector2f& moved_px = blocks_[index].moved_px;
   const auto back = [](int position, float by_px, int count) {
-    // Clamped first: half a block outside is the first or the last one. std::lround() would be a
-    // call, three times for each block.
+    // The clamp comes first: half a block outside is the first or the last one. std::lround() would
+    // be a call, three times for each block.
     const float from = static_cast<float>(position) - by_px / kBlock_px;
     const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
     return static_cast<int>(inside + 0.5);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How each part of the picture moves, from one frame to the next.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@
 namespace spidar {
 
 /// How many times larger the sides of the picture are than those of the coarse picture, in which
-/// BlockField looks for what has jumped.
+/// BlockField searches for jumps.
 constexpr int kCoarser = 4;
 
 /// How much smaller the picture of a BlockField is than the base of the pyramid.
@@ -32,7 +31,7 @@ FieldScale field_scale(int base_width, int base_height);
 double pixels_to_one(FieldScale scale);
 
 /// Writes the reduced `base` to `picture`. With kTwoThirds each pixel is the rounded mean of the
-/// area that it covers; columns and rows that do not fill a pixel are left out.
+/// pixels that it covers; columns and rows that do not fill a pixel are left out.
 void reduce_to_field(const PaddedImage& base, FieldScale scale, PaddedImage& picture);
 
 void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
@@ -44,10 +43,10 @@ void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
 void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
                       PaddedImage& before);
 
-/// How many pictures before the last one are kept at most.
+/// The most pictures that are kept before the last one.
 constexpr int kMaxBack = 4;
 
-/// Pictures with sides a quarter as long, and where each block of theirs has come from.
+/// Pictures with sides a quarter as long, and the origin of each of their blocks.
 struct CoarseField {
   PaddedImage before;
   PaddedImage now;
@@ -55,12 +54,12 @@ struct CoarseField {
   std::vector<BlockMatch> matches;
 };
 
-/// Motion of blocks between two pictures of about 427 × 240 px: BlockSearch finds it in whole
-/// pixels, then refined_block().
+/// How each part of the picture moves: motion of blocks between two pictures of about 427 × 240 px.
+/// BlockSearch finds it in whole pixels, then refined_block().
 class BlockField {
  public:
   enum class Result {
-    kFirst,  ///< nothing to compare it with: the first picture, or one of another size
+    kFirst,  ///< nothing to compare with: the first picture, or one of another size
     kCut,    ///< a different picture; as with kFirst, all blocks stand still
     kMoved,
   };
@@ -68,10 +67,9 @@ class BlockField {
   /// `base` is the frame reduced by a power of 2.
   Result update(const PaddedImage& base);
 
-  /// The picture is shown again: all blocks stand still.
+  /// Repeats the picture: all blocks stand still.
   void stand_still();
 
-  /// Forgets the previous picture.
   void reset() { has_picture_ = false; }
   bool has_picture() const { return has_picture_; }
 
@@ -82,8 +80,8 @@ class BlockField {
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
-  /// Noise of the two pictures: the residual that a third of the blocks stay below, grey². These
-  /// are the ones whose motion explains them best.
+  /// Noise of the two pictures: the residual that a third of the blocks stay below, grey². The
+  /// motion of these blocks explains them best.
   float noise_grey2() const { return noise_grey2_; }
   /// Pixels of the base to one pixel of the picture.
   double scale() const { return pixels_to_one(scale_); }
@@ -108,7 +106,7 @@ class BlockField {
     return lost > found;
   }
 
-  /// Block of the previous picture from which block `index` has come: the nearest one of the grid.
+  /// The block of the previous picture, the nearest of the grid, from which block `index` has come.
   size_t origin_of(size_t index) const;
 
   /// Σ |now − before| of a block if it had moved by `moved_px`: the smaller of the values at the
@@ -116,7 +114,7 @@ class BlockField {
   int difference_if_moved(size_t block, const Eigen::Vector2f& moved_px) const;
 
   /// How many pictures of this shot before the last one are known, kMaxBack at most; 0 while all
-  /// blocks stand still because the last one is shown again.
+  /// blocks stand still because the last picture is repeated.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
   /// How much less the cells of a block differ from the picture `back` pictures ago if the block
   /// has come from `from_px` away than if it has stayed in place; positive where it has moved.
@@ -124,7 +122,7 @@ class BlockField {
   std::optional<int> cell_difference_gain(size_t block, int back,
                                           const Eigen::Vector2i& from_px) const;
 
-  /// Pixels of a block, or of the area `beside_px` beside it, that stayed in place while their
+  /// Pixels of a block, or of the block `beside_px` beside it, that stayed in place while their
   /// surroundings moved by `moved_px`; none when that is out of reach.
   StayingPixels staying_pixels(size_t block, const Eigen::Vector2f& moved_px,
                                const Eigen::Vector2i& beside_px = {0, 0}) const;

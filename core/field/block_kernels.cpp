@@ -187,7 +187,7 @@ int cell_difference(BlockPixels a, BlockPixels b) {
 namespace {
 
 /// `masked(lanes, x, y)` returns `lanes`, which are of the eight pixels from x, y on, with 0 for
-/// those that are not counted.
+/// pixels that do not count.
 template <typename Masked>
 BlockSums compare(BlockPixels now, BlockPixels before, Masked&& masked) {
   v_int32x4 xx = cv::v_setzero_s32();

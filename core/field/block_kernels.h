@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Arithmetic of block motion: everything that is done for each pixel.
+/// Arithmetic of block motion: everything that runs for each pixel.
 #pragma once
 
 #include <cstddef>
@@ -29,10 +29,10 @@ struct BlockPixels {
 /// One pixel, in the unit of the fractions by which bilinear_difference() moves a block.
 constexpr int kFractionOne = 16;
 
-/// Σ over a block `now` and the block `before` that it is compared with. With Δₖ = p(x + k) −
-/// p(x − k), twice the derivative of a picture p is Δ₁ + (2 Δ₁ − Δ₂) / 4, rounded down. The
-/// derivatives g are those of both pictures together: four times the mean derivative in grey levels
-/// for each pixel. d is now − before.
+/// Σ over a block `now` and the block `before` for comparison. With Δₖ = p(x + k) − p(x − k), twice
+/// the derivative of a picture p is Δ₁ + (2 Δ₁ − Δ₂) / 4, rounded down. The derivatives g are those
+/// of both pictures together: four times the mean derivative in grey levels a pixel. d is now −
+/// before.
 struct BlockSums {
   int32_t xx = 0;          ///< Σ gx²
   int32_t xy = 0;          ///< Σ gx gy
@@ -68,11 +68,10 @@ struct MovedBlock {
   int fraction_y = 0;
 };
 
-/// Σ |a − b|. Stops after half of the rows when their sum has reached `limit`, and then returns
-/// that sum.
+/// Σ |a − b|. Stops after half of the rows if their sum has reached `limit`, and returns that.
 int block_difference(BlockPixels a, BlockPixels b, int limit);
 
-/// Σ |a − b| over the pixels that are counted: `counted` is 255 there, and 0 at the others.
+/// Σ |a − b| over the pixels that count: `counted` is 255 there, and 0 at the others.
 int block_difference(BlockPixels a, BlockPixels b, BlockPixels counted);
 
 /// Σ |pixel − mean| of a block, with the mean rounded to a whole grey level.
@@ -95,7 +94,7 @@ int bilinear_difference(BlockPixels now, BlockPixels before, int fraction_x, int
 
 /// Reads two pixels around both blocks.
 BlockSums compare_blocks(BlockPixels now, BlockPixels before);
-/// The same over the pixels that are counted, see block_difference().
+/// The same over the pixels that count, see block_difference().
 BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted);
 
 /// Compares a block `now` with the same position in the picture `before`. `from` is the position in

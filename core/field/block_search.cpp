@@ -12,12 +12,11 @@
 namespace spidar {
 namespace {
 
-/// By how much a match must improve for each pixel that it deviates from the median of its
-/// neighbours: an eighth of a grey level for each pixel of the block, for up to half a block.
+/// How much a match must improve for each pixel that it deviates from the median of its neighbours:
+/// an eighth of a grey level for each pixel of the block, for up to half a block.
 constexpr int kLambda = kBlockArea_px / 8;
 constexpr int kMaxDeviation_px = kBlock_px / 2;
-/// Where no candidate fits, the search is widened: as far as a block is wide, in halves down to a
-/// quarter of it.
+/// Where no candidate fits, the search is widened: by a block, in halves down to a quarter of it.
 constexpr int kFarthest_px = kBlock_px;
 constexpr int kNearest_px = kBlock_px / 4;
 /// A walk goes as far as a deviation costs more and more.
@@ -30,7 +29,6 @@ Vector2i middle(const Vector2i& a, const Vector2i& b, const Vector2i& c) {
   return a.cwiseMin(b).cwiseMax(a.cwiseMax(b).cwiseMin(c));
 }
 
-/// The search of one block.
 class Walk {
  public:
   Walk(const PaddedImage& before, const PaddedImage& now, const Vector2i& at_px)
@@ -43,7 +41,7 @@ class Walk {
 
   void expect(const Vector2i& expected) { expected_ = expected; }
 
-  /// Adds a vector unless it is a candidate already.
+  /// Adds a vector unless it is already a candidate.
   void add_candidate(const Vector2i& candidate) {
     const Vector2i v = inside(candidate);
     const auto end = candidates_.begin() + count_;
@@ -58,7 +56,7 @@ class Walk {
 
   void try_hint(const Vector2i& hint) { try_at(inside(hint)); }
 
-  /// Tries every second pixel around rest; used for the few blocks of a coarse picture.
+  /// Tries every second pixel around rest; for the few blocks of a coarse picture.
   void search_everywhere(const AreaSums& before) {
     int sum = 0;
     for (int y = 0; y < kBlock_px; ++y) {
@@ -208,7 +206,7 @@ void AreaSums::read(const PaddedImage& picture) {
     for (size_t x = 0; x < width_; ++x) column_[x] = static_cast<uint16_t>(column_[x] + below[x]);
     uint16_t* const sums = sums_.data() + static_cast<size_t>(y - first) * width_;
     std::copy(column_.begin(), column_.end(), sums);
-    // Sums two columns, then four, eight and sixteen; nothing asks for those that do not fit in.
+    // Sums two columns, then four, eight and sixteen; no search needs those that do not fit in.
     for (size_t n = 1; n < kBlock_px; n *= 2) {
       for (size_t x = 0; x + n < width_; ++x) {
         sums[x] = static_cast<uint16_t>(sums[x] + sums[x + n]);

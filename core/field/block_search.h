@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The grid of blocks of a picture, and the search, in whole pixels, for where each block was in
+/// The grid of blocks of a picture, and the search, in whole pixels, for the place of each block in
 /// the previous picture.
 #pragma once
 
@@ -17,8 +17,8 @@
 
 namespace spidar {
 
-/// Blocks side by side, centred on the picture and numbered row by row. The strip that is left at
-/// each border is narrower than a block.
+/// Blocks side by side, centred on the picture and numbered row by row. The strip at each border
+/// that no block covers is narrower than a block.
 struct BlockGrid {
   int columns = 0;
   int rows = 0;
@@ -35,7 +35,6 @@ struct BlockGrid {
   int column(size_t block) const { return static_cast<int>(block) % columns; }
   int row(size_t block) const { return static_cast<int>(block) / columns; }
 
-  /// The upper left pixel of a block.
   Eigen::Vector2i corner_of(size_t block) const {
     return corner_px + kBlock_px * Eigen::Vector2i(column(block), row(block));
   }
@@ -54,8 +53,7 @@ struct BlockGrid {
   }
   int rows_beside(size_t block) const { return std::min(row(block), rows - 1 - row(block)); }
 
-  /// Calls `visit(other)` for a block and all others that are at most `reach` columns and rows
-  /// away.
+  /// Calls `visit(other)` for a block and all others at most `reach` columns and rows away.
   template <typename Visit>
   void each_around(size_t block, int reach, Visit&& visit) const {
     const int left = std::max(column(block) - reach, 0);
@@ -82,24 +80,23 @@ struct BlockGrid {
   }
 };
 
-/// Σ of the pixels of each area of the size of a block. Two blocks differ by at least as much as
-/// their sums do (successive elimination: Li and Salari, 1995), so that most positions of a search
-/// need not be looked at.
+/// Σ of the pixels at each position of a block. Two blocks differ by at least as much as their sums
+/// do (successive elimination: Li and Salari, 1995), so most positions of a search are skipped.
 class AreaSums {
  public:
   /// For pictures of this size. Keeps the memory when the size is the same.
   void resize(int width, int height);
-  /// Sums the areas of a block's size that lie at most kBlockReach_px beyond the edge.
+  /// Sums the positions of a block that lie at most kBlockReach_px beyond the edge.
   void read(const PaddedImage& picture);
 
-  /// The sum of the area whose first pixel is `right_px`, `down_px` from the first one of all.
+  /// The sum at the position whose first pixel is `right_px`, `down_px` from the first one of all.
   int at(int right_px, int down_px) const {
     return sums_[static_cast<size_t>(down_px) * width_ + static_cast<size_t>(right_px)];
   }
 
  private:
   size_t width_ = 0;              ///< px that are read of a row
-  std::vector<uint16_t> column_;  ///< Σ of the rows of an area
+  std::vector<uint16_t> column_;  ///< Σ of the rows of a position
   std::vector<uint16_t> sums_;    ///< at most 16 · 16 · 255 < 2¹⁶
 };
 
@@ -130,7 +127,6 @@ class BlockSearch {
   AreaSums before_sums_;  ///< for a search of the whole range
 };
 
-/// The smaller eigenvalue of a symmetric matrix.
 template <typename Scalar>
 Scalar smaller_eigenvalue(const Eigen::Matrix<Scalar, 2, 2>& S) {
   const Scalar unequal = S(0, 0) - S(1, 1);
@@ -145,8 +141,8 @@ Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
   return S.trace() > 0 ? smaller / (S.trace() - smaller) : 0;
 }
 
-/// Largest error of a block's motion in whole pixels, px of the picture in which motion is
-/// measured: it is right to half a pixel, or wrong. A block that is further off shows something
+/// The largest error of a block's motion in whole pixels, px of the picture in which motion is
+/// measured: the motion is right to half a pixel, or wrong. A block further off shows something
 /// else.
 constexpr float kMaxOff_px = 1;
 
@@ -157,24 +153,23 @@ struct MotionBlock {
   Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();  ///< since the previous picture
   /// Structure tensor: mean of g gᵀ over the block, without its common slope, (grey / px)².
   Eigen::Matrix2f structure = Eigen::Matrix2f::Zero();
-  /// What the block's motion leaves unexplained: mean squared difference without its common offset,
-  /// grey².
+  /// The residual of the block's motion: mean squared difference without its common offset, grey².
   float residual = 0;
   int difference = 0;  ///< Σ |now − before| at the nearest whole pixel
 
   /// Added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the
-  /// result of the search in whole pixels is kept.
+  /// result of the search in whole pixels stays.
   static constexpr float kRegularization = 1;
-  /// Smaller eigenvalue from which on the motion is known to a fraction of a pixel, (grey / px)²:
-  /// twice that of nothing but noise of two grey levels, which moves such a block by 0.08 px.
+  /// The smaller eigenvalue from which on the motion is known to a fraction of a pixel, (grey /
+  /// px)²: twice that of pure noise of two grey levels, which moves such a block by 0.08 px.
   static constexpr float kMinTexture = 5;
   /// Whether the motion is known in one direction at least.
   bool has_texture() const { return structure.trace() > 2 * kMinTexture; }
-  /// Least roundness() of a structure that is not that of an edge. Along an edge, a match would
+  /// The least roundness() of a structure that is not that of an edge. Along an edge, a match would
   /// only follow noise.
   static constexpr double kMinRoundness = 0.05;
-  /// Smaller eigenvalue of the structure tensor. It is large when the motion is known in every
-  /// direction, also along an edge.
+  /// The smaller eigenvalue of the structure tensor, which is large when the motion is known in
+  /// every direction, also along an edge.
   float weakest_texture() const { return smaller_eigenvalue(structure); }
   /// Whether the motion is known to a fraction of a pixel in every direction.
   bool has_corners() const { return weakest_texture() >= kMinTexture; }
@@ -188,11 +183,11 @@ inline BlockPixels pixels_at(const PaddedImage& picture, const Eigen::Vector2i& 
 /// Gauss–Newton step with the derivatives of both pictures refines its motion. Using both makes the
 /// step second-order exact (Benhimane and Malis: Real-time image-based tracking of planes using
 /// efficient second-order minimization, IROS 2004). `regularization` is added to the diagonal of
-/// the structure tensor, (grey / px)²: with hardly any texture, the result of the search is kept.
+/// the structure tensor, (grey / px)²: with hardly any texture, the result of the search stays.
 MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);
-/// The same from what compare_blocks() gives there.
+/// The same from the result of compare_blocks() there.
 MotionBlock refined_block(const BlockSums& sums, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);

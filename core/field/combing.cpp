@@ -13,8 +13,7 @@ namespace spidar {
 namespace {
 
 /// In a comb, brightness changes by more than kComb_grey from one line to the next and returns to
-/// within kSame_grey on the line after. Noise of σ = 5 grey levels makes 2 of 100 000 pixels look
-/// like this.
+/// within kSame_grey on the line after. Noise of σ = 5 grey levels does so in 2 of 100 000 pixels.
 constexpr int kComb_grey = 20;
 constexpr int kSame_grey = kComb_grey / 2;
 /// A frame counts as combed from this fraction of its pixels on: an object on 5 % of the frame,
@@ -25,14 +24,13 @@ constexpr double kCombed = 0.005;
 constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
-/// kLines of so many lines of the frame are looked at, to save time: some of every block, which
+/// kLines of so many lines of the frame are examined, to save time: some of every block, which
 /// covers at least as many.
 constexpr int kEvery = kBlock_px;
 
-/// Pixels are compared in vectors. What fills up the last one is the same in all lines: no comb.
+/// Pixels are compared in vectors. The padding of the last one is the same in all lines: no comb.
 constexpr int kLanes = 16;
 
-/// Number of pixels that look like a comb.
 int combs_in(const std::array<const uint8_t*, kLines>& lines, int width) {
   const cv::v_uint8x16 comb = cv::v_setall_u8(kComb_grey);
   const cv::v_uint8x16 same = cv::v_setall_u8(kSame_grey);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Detects interlaced pictures that are not flagged as such.
 #pragma once
 
 #include <cstdint>
@@ -10,15 +9,14 @@
 
 namespace spidar {
 
-/// Fraction of pixels that show combs: what moved between two fields jumps back and forth from line
-/// to line. Of every sixteen lines, four are examined. A pixel counts if it differs by kComb_grey
-/// from the lines above and below and hardly from the line after those.
+/// The fraction of pixels that show combs: what moved between two fields jumps back and forth from
+/// line to line. Of every sixteen lines, four are examined. A pixel counts if it differs by
+/// kComb_grey from the lines above and below and hardly from the line after those.
 double comb_fraction(const ImageView& frame, std::vector<uint8_t>& lines);
 
-/// Finds out from the frames so far whether a film is interlaced or telecined although it is not
+/// Detects from the frames so far whether a film is interlaced or telecined although it is not
 /// flagged. Only one field of such a film should be analysed, because its two fields show different
-/// moments. Fine stripes look the same; a film with such stripes loses some sharpness and nothing
-/// else.
+/// moments. Fine stripes look the same; a film with such stripes only loses some sharpness.
 class Combing {
  public:
   /// Examines the next frame and returns whether to take only one field of it. Large frames need no

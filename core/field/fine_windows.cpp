@@ -11,18 +11,17 @@
 namespace spidar {
 namespace {
 
-/// Two steps: the second one takes away what the first one leaves of a whole pixel.
+/// The second step removes what the first one leaves of a whole pixel.
 constexpr int kSteps = 2;
-/// Smaller eigenvalue of a window's structure tensor, on the mean over its pixels, (grey / px)².
-/// With less, noise of two grey
-/// levels moves the window by more than a fifth of a pixel.
+/// The smaller eigenvalue of a window's structure tensor, on the mean over its pixels, (grey /
+/// px)². With less, noise of two grey levels moves the window by more than a fifth of a pixel.
 constexpr float kMinTexture = 0.2f;
-/// Largest mean squared difference with which a window shows the same object, as a fraction of its
-/// variance: a window on the rim of an object shows the background, too, and is left out.
+/// The largest mean squared difference with which a window shows the same object, as a fraction of
+/// its variance: a window on the rim of an object shows the background, too, and is left out.
 constexpr float kMaxResidual = 0.05f;
 
-/// Reads a square of the frame whose upper left pixel is (`left`, `top`). False where it is not
-/// inside the frame.
+/// Reads a square of the frame whose upper left pixel is (`left`, `top`). Returns false where the
+/// square is not inside the frame.
 bool read_square(const ImageView& frame, int left, int top, int side, std::vector<uint8_t>& row,
                  float* to) {
   if (left < 0 || top < 0 || left + side > frame.width || top + side > frame.height) return false;
@@ -47,8 +46,8 @@ FineWindows::FineWindows() {
   found_.reserve(kMax);
 }
 
-/// Reads the pixels of a window whose position is set. False where it does not fit or shows too
-/// little.
+/// Reads the pixels of a window whose position is set. Returns false where the window does not fit
+/// or shows too little.
 bool FineWindows::read(const ImageView& frame, Template& window) {
   constexpr int kAround = kSide_px + 2;
   if (!read_square(frame, window.left_px - 1, window.top_px - 1, kAround, row_, patch_.data())) {
@@ -99,15 +98,15 @@ void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
 void FineWindows::keep(const ImageView& frame, const BlockField& field,
                        const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
-  // Of many, every second one, and so on.
+  // Of many blocks, every second one is taken, and so on.
   const size_t every = 1 + blocks.size() / (kMax + 1);
   for (size_t i = 0; i < blocks.size() && windows_.size() < kMax; i += every) {
     keep_one(frame, field, position, blocks[i]);
   }
 }
 
-/// One step of a window that is `offset_px` beside the middle of patch_. False where that is out of
-/// reach.
+/// Takes one step of a window that is `offset_px` beside the middle of patch_. Returns false where
+/// that is out of reach.
 bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
                        Eigen::Vector2f& step_px, float& residual) const {
   if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
@@ -138,11 +137,11 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
   return true;
 }
 
-/// Finds a window in `frame`. `moved_px`: where its block went, then where it went itself, px of
-/// the frame. False where it is lost.
+/// Finds a window in `frame`. `moved_px` is first the motion of its block, then that of the window,
+/// px of the frame. Returns false where the window is lost.
 bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px) {
   const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
-  // Not finite, or outside of any frame.
+  // The motion is not finite, or leads outside of any frame.
   if (!(whole_px.cwiseAbs().maxCoeff() < frame.width + frame.height)) return false;
   const int left = window.left_px + static_cast<int>(whole_px.x()) - kReach_px;
   const int top = window.top_px + static_cast<int>(whole_px.y()) - kReach_px;
@@ -166,8 +165,8 @@ const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const B
     return field.blocks()[block].moved_px.cast<double>();
   };
   for (const Template& window : windows_) {
-    // The middle of the window in the picture before, and the block that is there now: it gives a
-    // first estimate of the new position, and the block at that position gives the motion.
+    // The middle of the window in the picture before, and the block that is there now, give a first
+    // estimate of the new position, and the block at that position gives the motion.
     const Eigen::Vector2d corner_px(window.left_px, window.top_px);
     const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
     const Eigen::Vector2d from_px = (middle_px - position.centre_px) / position.scale;

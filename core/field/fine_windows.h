@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures in the frame itself how parts of some blocks move.
 #pragma once
 
 #include <array>
@@ -24,16 +23,17 @@ struct FieldPosition {
 
 /// A window in the middle of a block, and how it moved, px of the field's picture from its centre.
 struct FineMotion {
-  size_t block = 0;  ///< in which it is now
+  size_t block = 0;  ///< where the window is now
   Eigen::Vector2d from_px;
   Eigen::Vector2d moved_px;
 };
 
-/// Keeps a small window of the frame for some blocks, and finds it in the next frame by
-/// Gauss–Newton steps from where its block went (inverse compositional: Baker and Matthews:
-/// Lucas–Kanade 20 years on, IJCV 2004). The motion of a block is right to a tenth of a pixel of
-/// the reduced picture; the frame has more pixels, and a second step takes away what the first one
-/// leaves. Does not allocate once the frames have a size.
+/// Measures in the frame itself how parts of some blocks move. Keeps a small window of the frame
+/// for these blocks, and finds it in the next frame by Gauss–Newton steps from the motion of its
+/// block (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004). The
+/// motion of a block is right to a tenth of a pixel of the reduced picture; the frame has more
+/// pixels, and a second step removes the error of the first one. Allocates only for the first
+/// frame.
 class FineWindows {
  public:
   FineWindows();
@@ -42,22 +42,19 @@ class FineWindows {
   void keep(const ImageView& frame, const BlockField& field, const FieldPosition& position,
             const std::vector<size_t>& blocks);
 
-  /// Finds the windows in the next frame, with which `field` has just been updated. Lost ones are
-  /// left out. Valid until the next call.
+  /// Finds the windows in the next frame, after the update of `field`. Lost ones are left out.
+  /// Valid until the next call.
   const std::vector<FineMotion>& find(const ImageView& frame, const BlockField& field,
                                       const FieldPosition& position);
 
-  /// Forgets all windows.
   void reset() { windows_.clear(); }
 
-  /// The largest number of windows.
   static constexpr size_t kMax = 48;
 
  private:
-  /// Side of a window, px of the frame: in a small frame it covers the block, in a large one a part
-  /// of it.
+  /// Side of a window, px of the frame: in a small frame the block, in a large one a part.
   static constexpr int kSide_px = kBlock_px;
-  /// How far a step may lead away from where the block went, px of the frame.
+  /// How far a step may lead away from the motion of the block, px of the frame.
   static constexpr int kReach_px = 2;
   static constexpr int kPixels = kSide_px * kSide_px;
 
