@@ -36,7 +36,7 @@ std::string mark_of(const struct stat& file, const std::string& maker) {
          " " + std::to_string(file.st_mtim.tv_nsec);
 }
 
-/// Empty when there is none.
+/// Returns an empty text when there is none.
 std::string found_mark(const std::string& path) {
   constexpr size_t kMax_bytes = 256;
   std::string found(kMax_bytes, '\0');
@@ -75,7 +75,7 @@ std::runtime_error failure(const fs::path& target, int error) {
   return std::runtime_error(target.string() + ": cannot be written: " + std::strerror(error));
 }
 
-/// Whether the open file is still the one of this name.
+/// Whether the open file still has this name.
 bool is_at(int descriptor, const std::string& path) {
   struct stat opened {
   }, named{};
@@ -94,15 +94,15 @@ bool remove_left(const std::string& path, const fs::path& target) {
     throw std::runtime_error(target.string() + ": cannot be written while there is " + path +
                              ", which is not a file of this program; remove it");
   }
-  // Some network file systems have no locks: only this process is then kept from writing it twice.
+  // Some network file systems have no locks: there, only this process is kept from writing twice.
   const bool is_owned = flock(left, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   if (!is_owned && is_at(left, path)) unlink(path.c_str());
   close(left);
   return !is_owned;
 }
 
-/// A new, open and locked file; −1 when another process has locked it. Throws std::runtime_error,
-/// which names `target`.
+/// Makes a new, open and locked file; −1 when another process has locked it. Throws
+/// std::runtime_error, which names `target`.
 int make_locked(const std::string& path, const fs::path& target) {
   for (;;) {
     const int descriptor = uninterrupted([&] {
@@ -113,7 +113,7 @@ int make_locked(const std::string& path, const fs::path& target) {
       if (!remove_left(path, target)) return -1;
       continue;
     }
-    // Another process may take it for one that was left, before it is locked, and remove it.
+    // Another process may take it for an abandoned one, before it is locked, and remove it.
     uninterrupted([&] { return flock(descriptor, LOCK_EX); });
     if (is_at(descriptor, path)) return descriptor;
     close(descriptor);
@@ -165,8 +165,8 @@ void keep_permissions(int file, const std::string& path) {
 volatile std::sig_atomic_t received_signal = 0;
 sem_t has_received;
 
-/// In whatever thread: libraries that start threads before main() block no signals in these
-/// (OpenBLAS).
+/// Any thread may receive the signal: libraries that start threads before main() block no signals
+/// in these (OpenBLAS).
 void receive_signal(int number) {
   received_signal = number;
   sem_post(&has_received);
@@ -285,7 +285,7 @@ std::string PartFile::publish() {
   if (!is_kept && errno != EINVAL) throw failure(target_, errno);
   const std::lock_guard<std::mutex> lock(registry().mutex);
   check_in_place();
-  if (!replaces_.is_read) expect_not_read(place_);  // it may have been read since
+  if (!replaces_.is_read) expect_not_read(place_);  // this program may have read it since
   if (!may_replace()) throw failure(target_, EEXIST);
   struct stat before {};
   const bool is_there = stat(place_.c_str(), &before) == 0;
@@ -321,7 +321,7 @@ void remove_part_files_on_signals() {
   sem_init(&has_received, 0, 0);
   sigset_t signals;
   sigemptyset(&signals);
-  // Where the two limits of CPU time are one, only SIGKILL would come.
+  // If both limits of CPU time were equal, only SIGKILL would come.
   rlimit cpu{};
   if (getrlimit(RLIMIT_CPU, &cpu) == 0 && cpu.rlim_cur == cpu.rlim_max && cpu.rlim_cur > 1 &&
       cpu.rlim_cur != RLIM_INFINITY) {

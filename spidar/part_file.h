@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Output files that appear under their names only when they are complete.
 #pragma once
 
 #include <cstdint>
@@ -18,20 +17,21 @@ void mark_written(int file, const std::string& maker);
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
 bool is_as_written(const std::string& path, const std::string& maker);
 
-/// A file in the folder of the file that it becomes, its target. Its name is `.part-`, a number
-/// that follows from the name of the target, and the same extension: however long the name of a
-/// film is, this one fits. One owner at a time, among all threads and processes: it is locked for
-/// as long as the object exists. What a killed process left is removed, never written into, and a
-/// link of that name is not followed: nobody else has the file open. It is removed with the object.
-/// A target that is a link stays one, and the file that it leads to is replaced, whose permissions
-/// the new one gets.
+/// An output file that appears under its name only when it is complete. Until then it is a part
+/// file in the folder of its target, named `.part-`, a number that follows from the name of the
+/// target, and the same extension: the name fits however long that of a film is. The part file has
+/// one owner at a time, among all threads and processes, because it is locked for as long as the
+/// object exists. The leftover of a killed process is removed, never written into, and a link of
+/// that name is not followed: nobody else has the file open. The destructor removes the part file.
+/// If the target is a link, publish() replaces the file to which it leads, and keeps the
+/// permissions of that file.
 class PartFile {
  public:
   /// Which existing files are replaced.
   struct Replaces {
-    bool any = false;      ///< every regular file; if it has no name of the user, all of `maker`
-    std::string maker;     ///< those that this command has written and nobody changed; empty: none
-    bool is_named = true;  ///< the user has given the name of the target
+    bool any = false;      ///< every regular file; without a name of the user, all of `maker`
+    std::string maker;     ///< files that this command has written and nobody changed; empty: none
+    bool is_named = true;  ///< whether the user has given the name of the target
     bool is_read =
         false;  ///< also one that this program reads (note_read()), which else is an error
   };
@@ -53,17 +53,16 @@ class PartFile {
   const std::string& path() const { return path_; }
   /// The name that it will have, for messages.
   const std::string& target() const { return target_; }
-  /// Open for reading and writing.
   int descriptor() const { return descriptor_; }
 
-  /// Appends to what has been written in this way. Throws std::runtime_error when that fails.
+  /// Appends to the text that was written in this way. Throws std::runtime_error when that fails.
   void write(const std::string& content);
 
-  /// Throws std::runtime_error when path() is another file by now, or its folder has gone.
+  /// Throws std::runtime_error when path() has become another file, or its folder has gone.
   void check_in_place() const;
 
   /// Gives the file its name; afterwards there is no part file. Throws std::runtime_error if there
-  /// is a file by now that is not replaced. Returns a remark for the user; usually empty.
+  /// is now a file that is not replaced. Returns a remark for the user; usually empty.
   std::string publish();
 
  private:
@@ -83,8 +82,8 @@ class PartFile {
 void replace_file(const std::filesystem::path& file, const std::string& text);
 
 /// From now on, SIGINT, SIGTERM, SIGHUP and SIGXCPU remove all part files before they end the
-/// program, and what cannot be written is an error instead of a signal. To be called before other
-/// threads start, because they inherit the signals that are blocked.
+/// program, and a failed write is an error instead of a signal. Call this before other threads
+/// start, because they inherit the blocked signals.
 void remove_part_files_on_signals();
 
 }  // namespace spidar

@@ -14,10 +14,10 @@ namespace spidar {
 /// it regular, but does not let it be read, as with /proc/self/mem.
 std::string read_regular_file(const std::string& path, size_t most_bytes);
 
-/// Notes that this program reads `file`, so that no output takes its place (expect_not_read()).
+/// Records that this program reads `file`, so that no output replaces it (expect_not_read()).
 void note_read(const std::filesystem::path& file);
 
-/// Throws std::runtime_error when `output` is a file that note_read() has noted, whatever its name:
+/// Throws std::runtime_error when `output` is a file that note_read() has recorded, under any name:
 /// a link to it, or the same file by another name.
 void expect_not_read(const std::filesystem::path& output);
 

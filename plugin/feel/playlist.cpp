@@ -43,7 +43,8 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// What is not in UTF-8 is by an old Windows, or a name of bytes that no encoding explains.
+/// Text that is not UTF-8 comes from an old Windows, or is a name of bytes that no encoding
+/// explains.
 std::string utf8_of(const std::string& text) {
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
   const std::string converted = taken(g_convert_with_fallback(
@@ -51,8 +52,8 @@ std::string utf8_of(const std::string& text) {
   return converted.empty() ? text : converted;
 }
 
-/// Lines that are no comment, or in PLS what "File1 =" and so on name, by their numbers; nothing
-/// for HLS, which is one film.
+/// The names in lines: those that are no comment, or in PLS those of "File1 =" and so on, by
+/// number; nothing for HLS, which is one film.
 std::optional<Names> named_in_lines(const std::string& path) {
   std::map<size_t, std::string> names;
   bool is_pls = ends_as(path, {".pls"});
@@ -74,7 +75,8 @@ std::optional<Names> named_in_lines(const std::string& path) {
   return in_order;
 }
 
-/// Of XSPF, ASX and WPL. Few of the latter two are correct XML, so they are read as HTML is.
+/// The names in XSPF, ASX and WPL. Few of the latter two are correct XML, so they are parsed as
+/// HTML.
 Names named_in_xml(const std::string& path) {
   std::string text;
   TextLines lines(path);
@@ -99,8 +101,8 @@ Names named_in_xml(const std::string& path) {
   return names;
 }
 
-/// The file that a playlist in `folder` means by `name`: as it stands, without blanks around it,
-/// with slashes, and with what "%20" and so on stand for; or else its URI, or its name there.
+/// The file that a playlist in `folder` means by `name`: unchanged, without blanks around it, with
+/// slashes, and with decoded "%20" and so on; or else its URI, or its name there.
 std::string named_file(const fs::path& folder, const std::string& name) {
   const std::string bare = taken(g_strstrip(g_strdup(utf8_of(name).c_str())));
   if (bare.empty()) return {};
@@ -127,7 +129,7 @@ Names read_folder(const std::string& path) {
   return films;
 }
 
-/// Nothing for HLS.
+/// Returns nothing for HLS.
 std::optional<Names> read_playlist(const std::string& path) {
   if (fs::file_size(path) > kMax_bytes) {
     throw std::runtime_error(path + ": has more than 4 MiB, which no playlist has");
@@ -138,7 +140,7 @@ std::optional<Names> read_playlist(const std::string& path) {
   return names;
 }
 
-/// Adds what `word` stands for. Each playlist is read once, so that none goes on for ever.
+/// Adds the films of `word`. Each playlist is read once, so that none goes on for ever.
 void add_films(const std::string& word, std::set<fs::path>& read, Names& films) {
   std::error_code error;
   std::optional<Names> names;
@@ -149,7 +151,7 @@ void add_films(const std::string& word, std::set<fs::path>& read, Names& films) 
   }
   for (const std::string& name : names.value_or(Names())) add_films(name, read, films);
   if (names || word.empty()) return;
-  // A file is one, whatever it looks like: a URI ("Alien:Romulus.avi"), or an option.
+  // An existing file counts even if it looks like a URI ("Alien:Romulus.avi") or an option.
   const bool looks_other = gst_uri_is_valid(word.c_str()) || word[0] == '-';
   films.push_back(looks_other && is_there(word) ? "./" + word : word);
 }

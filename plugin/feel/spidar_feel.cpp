@@ -54,10 +54,10 @@ void check_device(GObject* element) {
 }
 
 /// `properties` are of the form NAME=VALUE, or preset=NAME; `element` is a spidarmotion in the
-/// state NULL. Opens no device, so one that is not plugged in is no error. Throws UsageError,
-/// which says what is wrong and what would be right, for an unknown property, a value that the
-/// property does not take, a name that no device has, and a profile that cannot be read or does not
-/// suit the device.
+/// state NULL. Opens no device, so an unplugged one is no error. Throws UsageError, which says what
+/// is wrong and what would be right, for an unknown property, a value that the property does not
+/// accept, a name that no device has, and a profile that cannot be read or does not suit the
+/// device.
 void check_properties(GstElement* element, const std::vector<std::string>& properties) {
   for (const std::string& property : properties) set_typed(element, property);
   check_device(G_OBJECT(element));
@@ -103,7 +103,7 @@ stands for those of a preset: paper, film or gentle. A haptic track beside FILM,
 
 struct Options {
   std::vector<std::string> properties;   ///< NAME=VALUE
-  char** program = nullptr;              ///< and its arguments; null: follow, or look
+  char** program = nullptr;              ///< with its arguments; null: --follow or --screen
   std::string followed;                  ///< name of the player; empty: any
   std::optional<std::string> looked_at;  ///< by --screen
 };
@@ -113,7 +113,7 @@ struct Options {
   std::exit(status);
 }
 
-/// NAME=VALUE, and no film whose name or URI has an equals sign.
+/// Whether the word is NAME=VALUE, and not a film whose name or URI has an equals sign.
 bool is_property(const std::string& word) {
   const size_t end = word.find('=');
   if (end == std::string::npos || word[0] == '-') return false;
@@ -192,7 +192,7 @@ void check(const std::vector<std::string>& properties) {
   }
 }
 
-/// NAME={VALUE,…} for each property with a choice of values, else NAME=.
+/// Prints NAME={VALUE,…} for each property with a choice of values, else NAME=.
 void list_properties() {
   const auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
@@ -241,7 +241,7 @@ bool begins_as_program(const std::string& path) {
   return std::memcmp(begin, "\177ELF", 4) == 0 || std::memchr(begin, '\0', size) == nullptr;
 }
 
-/// Whether `word` is to be played, and is no program. Some file systems let every file be executed.
+/// Whether `word` is a film to play, and no program. Some file systems let every file be executed.
 bool is_film(const std::string& word) {
   if (word.find("://") != std::string::npos && gst_uri_is_valid(word.c_str())) return true;
   std::error_code error;
@@ -302,7 +302,7 @@ void run_films(char** films) {
   fail(kCannotRun, std::string(kPlayer) + ": " + std::strerror(error));
 }
 
-/// Whether the program is one of those that people try, and that show no video by GStreamer.
+/// Whether the program is one that people try, and that shows no video by GStreamer.
 bool is_without_gstreamer(const std::string& program) {
   constexpr const char* kPrograms[] = {"mpv",  "vlc",     "cvlc",     "mplayer",      "ffplay",
                                        "kodi", "firefox", "chromium", "google-chrome"};
@@ -310,7 +310,7 @@ bool is_without_gstreamer(const std::string& program) {
   return std::find(std::begin(kPrograms), std::end(kPrograms), name) != std::end(kPrograms);
 }
 
-/// Says what would otherwise be missed.
+/// Warns when nothing will be felt.
 void warn_of_nothing_felt(const Options& options) {
   const char* const device = spidar::follow::value_of(options.properties, "device");
   if (device && std::strcmp(device, "none") == 0) return;  // nothing is to be felt

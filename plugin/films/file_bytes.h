@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A file as bytes, and numbers in them.
 #pragma once
 
 #include <algorithm>

@@ -14,8 +14,8 @@
 namespace spidar {
 namespace {
 
-/// What writers that cannot seek back leave as a size of 32 bits: the largest of either sign, less
-/// some of the head (sox writes 0x7ffff000 less a remainder), or no bit but the first.
+/// The sizes of 32 bits that writers leave when they cannot seek back: the largest of either sign,
+/// minus some of the header (sox writes 0x7ffff000 minus a remainder), or only the first bit.
 bool is_unknown_size(uint64_t size) {
   constexpr uint64_t kRange = uint64_t{1} << 31, kHeads = uint64_t{1} << 16;
   return size % kRange == 0 || size % kRange >= kRange - kHeads;
@@ -43,8 +43,7 @@ bool is_box(const std::string& type) {
                      [&type](const char* one) { return type == one; });
 }
 
-/// ISO/IEC 14496-12. What follows a film that is complete, and is no box of it, has been
-/// appended.
+/// ISO/IEC 14496-12. Data behind a complete film that are no box of it have been appended.
 FilmEnd end_of_boxes(FileBytes& file) {
   bool has_index = false, has_pictures = false, has_fragments = false;
   for (uint64_t at = 0; at < file.size();) {
@@ -57,7 +56,7 @@ FilmEnd end_of_boxes(FileBytes& file) {
     if (head.size() < 8) return FilmEnd::kCutOff;
     uint64_t length = big_endian(head, 0, 4);
     if (length == 1 && head.size() == 16) length = big_endian(head, 8, 8);
-    if (length < 8) return FilmEnd::kUnknown;  // 0: it goes on to the end
+    if (length < 8) return FilmEnd::kUnknown;  // 0: it extends to the end
     if (length > file.size() - at) return FilmEnd::kCutOff;
     at += length;
     has_index = has_index || type == "moov";
@@ -120,7 +119,7 @@ int64_t time_ns(uint64_t samples, uint64_t rate_Hz) {
   return std::llround(1e9 * static_cast<double>(samples) / static_cast<double>(rate_Hz));
 }
 
-/// Of a WAV file: its chunk "data". wavparse plays what is there.
+/// Reads the chunk "data" of a WAV file. wavparse plays what is there.
 FileLength length_of_wav(FileBytes& file) {
   uint64_t rate_Hz = 0, sample_bytes = 0;
   for (uint64_t at = 12; at < file.size();) {
@@ -293,8 +292,8 @@ FlacLength flac_length(FileBytes& file) {
   return length;
 }
 
-/// What trims a file copies whole frames, and leaves the length in its head as it was: only where a
-/// frame is incomplete is it cut off.
+/// Programs that trim a file copy whole frames, and leave the old length in its header: the file is
+/// cut off only where a frame is incomplete.
 FileLength length_of_flac(FileBytes& file) {
   const FlacLength flac = flac_length(file);
   if (flac.rate_Hz == 0 || !flac.end || *flac.end < flac.begin) return {};

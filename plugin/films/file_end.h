@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the end of a file is there, and how long its sound is: as its header and its last bytes
-/// say, without decoding.
+/// Whether the end of a file is there, and how long its sound is, by its header and its last bytes,
+/// without decoding.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace spidar {
 
 enum class FilmEnd {
   kWhole,
-  kAppended,  ///< whole, with something behind it that is no part of it
+  kAppended,  ///< whole, with something appended that is no part of it
   kCutOff,    ///< within a chunk, a segment, a box or a page, or before the last page
   kUnknown,   ///< the file does not state it
 };
 
 /// Judges by the length that AVI, Matroska, WebM, MP4, QuickTime and Ogg state. The demuxers of
-/// GStreamer take such a film, when it is cut off, for a shorter one that is whole. What cameras
-/// and taggers append is no part of the film.
+/// GStreamer take a truncated film for a shorter one that is whole. Data that cameras and taggers
+/// append are no part of the film.
 FilmEnd film_end(const std::string& path);
 
 struct FileLength {
-  std::optional<int64_t> available_ns;  ///< nothing when it is not known without decoding
+  std::optional<int64_t> available_ns;  ///< nothing when unknown without decoding
   int64_t declared_ns = 0;              ///< by its header; 0: not stated
-  bool by_samples = false;              ///< both are exact: of WAV and FLAC
+  bool by_samples = false;              ///< both are exact: in WAV and FLAC
   bool is_cut_off = false;              ///< as film_end() finds, or within a frame of FLAC
 };
 

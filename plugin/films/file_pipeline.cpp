@@ -25,7 +25,7 @@ void note_missing(GstMessage* message, std::string& missing) {
   if (name) missing += (missing.empty() ? "" : ", ") + std::string(name);
 }
 
-/// Of an error; `missing` is the plug-in that GStreamer does not name in it.
+/// The text of an error; `missing` is the plug-in that GStreamer does not name in it.
 std::string text_of(GstMessage* message, const std::string& missing = "") {
   g_autoptr(GError) error = nullptr;
   gst_message_parse_error(message, &error, nullptr);

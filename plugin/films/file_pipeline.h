@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A pipeline that reads a file from a thread that can be stopped.
 #pragma once
 
 #include <atomic>
@@ -17,8 +16,9 @@ class FilePipeline {
  public:
   static constexpr GstClockTime kLongestSilence = 10 * GST_SECOND;
 
-  /// `line` contains a filesrc named "source". Throws std::runtime_error when `path` is not a
-  /// regular file, because reading anything else may wait for ever, or when an element is missing.
+  /// A pipeline that reads a file from a thread that can be stopped. `line` contains a filesrc
+  /// named "source". Throws std::runtime_error when `path` is not a regular file, because reading
+  /// anything else may wait for ever, or when an element is missing.
   FilePipeline(const std::string& line, const std::string& path,
                const std::atomic<bool>* stopped = nullptr,
                GstClockTime longest_silence = kLongestSilence);
@@ -26,9 +26,8 @@ class FilePipeline {
   FilePipeline& operator=(const FilePipeline&) = delete;
 
   GstElement* pipeline() const { return pipeline_.get(); }
-  /// Owned by the pipeline.
   GstElement* find(const char* name) const;
-  /// Adds a sink that discards what it gets as fast as it comes. Owned by the pipeline.
+  /// Adds a sink that discards data as fast as they come. Owned by the pipeline.
   GstElement* add_fakesink() const;
 
   /// Links each stream of a parsebin "parse" when it begins to flow, to the element that `take`
@@ -36,26 +35,25 @@ class FilePipeline {
   /// flow; linked only now, its parser leaves the data as they are in the file. Streaming threads.
   void link_streams(std::function<GstElement*(GstPad*)> take);
   /// Plays until a message of `awaited` or EOS comes, and returns which; GST_MESSAGE_UNKNOWN when
-  /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was
-  /// read for `longest_silence`, because some demuxers stop at damage without an error, or when
+  /// `limit` has passed. Throws std::runtime_error with the text of an error, when nothing was read
+  /// for `longest_silence`, because some demuxers stop at damage without an error, or when
   /// `*stopped` has become true.
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
-  /// Calls `take` with the text of each error, in the thread of what reports it. Before
+  /// Calls `take` with the text of each error, in the thread that reports it. Call this before
   /// play_until().
   void hear_errors(std::function<void(const std::string&)> take);
-  /// What a thread that waits for data remembers between two calls of check().
+  /// The state of a thread that waits for data, between two calls of check().
   struct Progress {
     uint64_t read = 0;
     GstClockTime silent = 0;
   };
-  /// The period in which such a thread checks whether it has to stop.
+  /// The period in which such a thread checks whether it must stop.
   static constexpr GstClockTime kLook = 20 * GST_MSECOND;
-  /// To be called once in kLook. Throws std::runtime_error as play_until() does when nothing comes.
+  /// Call this once in kLook. Throws std::runtime_error as play_until() does when nothing comes.
   void check(Progress& progress) const;
-  /// Holds the streams where they are, until play_until(), and forgets messages that have come: an
-  /// EOS that follows a seek is then that of the seek.
+  /// Holds the streams where they are, until play_until(), and forgets earlier messages: an EOS
+  /// that follows a seek is then that of the seek.
   void pause() const;
-  /// Stops the pipeline; afterwards no callback runs.
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
  private:
@@ -77,7 +75,6 @@ class FilePipeline {
 /// Goes to the key frame before a time. Returns whether that is possible.
 bool seek_before(GstElement* sink, int64_t time_ns);
 
-/// The time as text, such as "1.250 s".
 std::string seconds_text(int64_t ns);
 
 }  // namespace spidar

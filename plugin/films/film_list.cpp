@@ -24,7 +24,6 @@ bool is_hidden(const fs::path& path) {
   return path.filename().string().front() == '.';
 }
 
-/// In small letters.
 std::string end_of(const fs::path& path) {
   std::string end = path.extension().string();
   std::transform(end.begin(), end.end(), end.begin(),
@@ -42,7 +41,7 @@ bool is_beside_film(const fs::path& path) {
   return end_of(stem) == ".haptic" || end_of(path) == ".feel";
 }
 
-/// Finds the films in a folder and below, and counts what else is there.
+/// Finds the films in a folder and below, and counts everything else.
 class FilmSearch {
  public:
   /// Throws std::runtime_error when the folder itself cannot be read.

@@ -12,17 +12,17 @@ namespace spidar {
 
 struct ListedFilm {
   std::string path;
-  /// Its folder, relative to the one that was given; empty if the film itself was given.
+  /// Its folder, relative to the named one; empty if the film itself was named.
   std::filesystem::path subfolder;
-  uintmax_t bytes = 0;  ///< of the file; 0 if the film itself was given
+  uintmax_t bytes = 0;  ///< of the file; 0 if the film itself was named
 };
 
 /// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
-/// end as those of films do (".mkv" in small or capital letters), without hidden ones and hidden
-/// folders: the largest first, so that a long film does not come last and alone. Links to folders
-/// are not followed. `left_out` is what the folders have besides films, in one line; may be empty.
-/// Throws std::runtime_error if a folder has no film or cannot be read; one below it that cannot is
-/// left out.
+/// end as those of films do (".mkv", ignoring case), without hidden ones and hidden folders: the
+/// largest first, so that a long film does not come last and alone. Links to folders are not
+/// followed. `left_out` describes the other files of the folders, in one line; may be empty. Throws
+/// std::runtime_error if a folder has no film or cannot be read; unreadable folders below are left
+/// out.
 std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out);
 
 }  // namespace spidar

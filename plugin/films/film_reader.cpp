@@ -54,7 +54,7 @@ PacketFraming framing_of(const GstCaps* caps) {
   PacketFraming framing;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
   const std::string name = gst_structure_get_name(structure);
-  // In ISO/IEC 14496-15, where the configuration says how long the lengths are.
+  // In ISO/IEC 14496-15, the configuration states the size of the lengths.
   const bool is_hevc = name == "video/x-h265";
   if (name != "video/x-h264" && !is_hevc) return framing;
   const gchar* format = gst_structure_get_string(structure, "stream-format");
@@ -118,7 +118,7 @@ std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
   std::optional<int64_t> later_ns;
   for (const FilmPacket& packet : packets) {
     if (packet.hash != fingerprint.hash) continue;
-    // The nearest one, if a picture is repeated.
+    // If a picture is repeated, the nearest one counts.
     const int64_t this_ns = packet.time_ns - fingerprint.time_ns;
     if (!later_ns || std::llabs(this_ns) < std::llabs(*later_ns)) later_ns = this_ns;
   }
@@ -130,10 +130,10 @@ namespace {
 /// The fingerprint comes from so many packets, or from fewer that are large.
 constexpr size_t kStartPackets = 256;
 constexpr size_t kStartBytes = size_t{8} << 20;
-/// From the last key frame to the end of the film there may be so much.
+/// The most data from the last key frame to the end of the film.
 constexpr size_t kEndBytes = size_t{64} << 20;
-/// Where the end is searched, before the end of the container: sound may be longer than the
-/// pictures, and a demuxer without an index may come out behind the last key frame.
+/// How far before the end of the container the end is searched: sound may be longer than the
+/// pictures, and a demuxer without an index may land behind the last key frame.
 constexpr int64_t kBeforeEnd_ns[] = {0, 20'000'000'000};
 constexpr GstClockTime kLongestSearch = 10 * GST_SECOND;
 
@@ -167,7 +167,7 @@ class FilmReader {
  private:
   enum class Part { kStart, kEnd, kNone };
 
-  /// Whether there were pictures until the end of the film.
+  /// Returns whether there were pictures until the end of the film.
   bool read_from(int64_t time_ns) {
     file_.pause();
     {
@@ -267,9 +267,9 @@ class FilmReader {
 
   FilePipeline file_;
   GstElement* const parser_;
-  GstElement* sink_ = nullptr;  ///< of the pictures
+  GstElement* sink_ = nullptr;  ///< for the pictures
   int streams_ = 0;             ///< of pictures
-  bool is_cover_ = false;       ///< they may be a single one, beside those of the film
+  bool is_cover_ = false;       ///< the pictures may be a single one, beside those of the film
   PacketFraming framing_;
   std::mutex mutex_;
   Part part_ = Part::kStart;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads from a film, without decoding it, what it is recognised by and what its haptic track is
-/// compared with.
+/// Reads from a film, without decoding it, its fingerprint and the data to compare with its haptic
+/// track.
 #pragma once
 
 #include <atomic>
@@ -25,21 +25,20 @@ struct PacketFraming {
 /// The framing that the caps of a parsed stream state.
 PacketFraming framing_of(const GstCaps* caps);
 
-/// Hashes the end of the last unit of a packet: between one half of it and the whole, because what
-/// containers add or take away, such as parameter sets and delimiters, comes before the picture.
+/// Hashes the end of the last unit of a packet: between one half of it and the whole, because parts
+/// that containers add or remove, such as parameter sets and delimiters, come before the picture.
 /// Start codes, lengths and zeros at the end are not included. 16 hexadecimal digits.
 std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing);
 
-/// A compressed picture.
 struct FilmPacket {
   std::string hash;  ///< hash_packet()
   size_t size = 0;
   int64_t time_ns = 0;  ///< stream time
 };
 
-/// The largest compressed picture at the beginning of a film: what is easy to encode, such as
-/// black, is the same in many films. It remains the same when the film is copied into another
-/// container, and differs when it is encoded anew.
+/// The largest compressed picture at the beginning of a film: pictures that are easy to encode,
+/// such as black, are the same in many films. The fingerprint stays when the film is copied into
+/// another container, and differs when it is encoded anew.
 struct FilmFingerprint {
   std::string hash;
   int64_t time_ns = 0;
@@ -51,7 +50,7 @@ FilmFingerprint fingerprint_of(const std::vector<FilmPacket>& packets);
 
 /// One word, for the metadata of a track.
 std::string to_text(const FilmFingerprint& fingerprint);
-/// Empty when `text` is no fingerprint.
+/// Returns an empty fingerprint when `text` is none.
 FilmFingerprint parse_fingerprint(const std::string& text);
 
 /// How much later the picture of the fingerprint comes in the film that begins with `packets`;
@@ -67,9 +66,9 @@ struct Film {
   std::optional<int64_t> end_ns;
   int64_t duration_ns = 0;  ///< of the longest stream; 0 when the container does not state it
   int64_t frame_ns = 0;     ///< longest time between two pictures at the beginning
-  bool has_track = false;   ///< a haptic track is inside the film
+  bool has_track = false;   ///< whether a haptic track is inside the film
   bool has_subtitles = false;
-  bool is_still = false;  ///< it has a single picture, as a cover does
+  bool is_still = false;  ///< whether it has a single picture, as a cover does
 };
 
 /// Reads the beginning and the end of the first video stream of `path`: some megabytes, a short

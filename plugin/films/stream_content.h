@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The content of a stream of a film: pictures, sound for ears, or a haptic track.
+/// The content of a stream of a film: pictures, audible sound, or a haptic track.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace spidar {
 
 /// The mark of a track: a line of its comment, which FLAC, Matroska and WAV keep, and a tag of its
-/// own where there are such. Every writer of tracks writes it.
+/// own in other formats. Every writer of tracks writes it.
 extern const char* const kTrackMark;
 
 /// Whether tags of a stream contain the mark. Those of a container apply to all of its streams, and
-/// say nothing of one of them.
+/// say nothing about a single one.
 bool is_marked_track(const GstTagList* tags);
 
-/// Whether the stream that comes to a pad is marked, from the events that come to it.
+/// Whether the stream that comes to a pad is marked, by its events.
 class TrackMark {
  public:
   void update(GstEvent* event);
@@ -33,16 +33,15 @@ class TrackMark {
 /// Whether a tag that has come to `pad` is marked.
 bool is_marked_track(GstPad* pad);
 
-/// Whether sound that nothing has converted, such as that in a file, has the form of the tracks
-/// that this project writes: six channels of 1000 samples a second, which no sound for ears has.
+/// Whether sound without conversion, such as that in a file, has the form of the tracks that this
+/// project writes: six channels of 1000 samples a second, which no audible sound has.
 bool has_form_of_track(const GstCaps* caps);
 
-/// How to mark a file, as the rest of a sentence.
 std::string how_to_mark();
 
 enum class StreamContent {
   kVideo,
-  kSound,        ///< for ears
+  kSound,        ///< audible
   kHapticTrack,  ///< has_form_of_track(), or is_marked_track()
   kSubtitles,    ///< text or pictures
   kOther,
@@ -64,7 +63,7 @@ std::string why_missing(GstElement* bin);
 /// Stream time of a buffer that passes the pad; GST_CLOCK_TIME_NONE when it has none.
 GstClockTime stream_time_of(GstPad* pad, GstBuffer* buffer);
 
-/// The current caps of a pad, else those that it could have. Owned by the caller.
+/// The current caps of a pad, else its possible ones. Owned by the caller.
 GstCaps* caps_of(GstPad* pad);
 
 }  // namespace spidar

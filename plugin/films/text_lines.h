@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The lines of text files that people or their programs have written.
 #pragma once
 
 #include <cstring>
@@ -13,8 +12,9 @@
 
 namespace spidar {
 
-/// Lines end in LF, CR or both. A byte order mark is left out, and UTF-16 that has one becomes
-/// UTF-8; other bytes are given as they are.
+/// The lines of a text file that a person or another program has written. Lines end in LF, CR or
+/// both. A byte order mark is left out, and UTF-16 with one becomes UTF-8; other bytes stay
+/// unchanged.
 class TextLines {
  public:
   static constexpr const char* kOtherText =
@@ -41,7 +41,7 @@ class TextLines {
     g_data_input_stream_set_newline_type(lines_.get(), G_DATA_STREAM_NEWLINE_TYPE_ANY);
   }
 
-  /// Without its end; nothing after the last one.
+  /// Returns the next line without its end; nothing after the last one.
   std::optional<std::string> next() {
     gsize size = 0;
     g_autofree gchar* line = g_data_input_stream_read_line(lines_.get(), &size, nullptr, &error_);

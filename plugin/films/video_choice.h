@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Which stream of a film is its picture.
 #pragma once
 
 #include <mutex>
@@ -11,8 +10,8 @@
 
 namespace spidar {
 
-/// Chooses among the streams of a decodebin or uridecodebin: a cover only where there is nothing
-/// else. Outlives the pipeline.
+/// Chooses the picture of a film among the streams of a decodebin or uridecodebin: a cover only
+/// where there is nothing else. Outlives the pipeline.
 class VideoChoice {
  public:
   enum class Rule {
@@ -24,9 +23,11 @@ class VideoChoice {
   VideoChoice(const VideoChoice&) = delete;
   VideoChoice& operator=(const VideoChoice&) = delete;
 
-  /// Before `decoder` starts. Decoded covers look like any picture, so their format is seen before.
+  /// Call this before `decoder` starts. Decoded covers look like any picture, so their format is
+  /// recorded before.
   void watch(GstElement* decoder);
-  /// Once all streams of `decoder` are known; null when none has pictures. Owned by the decoder.
+  /// Call this once all streams of `decoder` are known; null when none has pictures. Owned by the
+  /// decoder.
   GstPad* choose(GstElement* decoder);
 
  private:
@@ -35,7 +36,7 @@ class VideoChoice {
 
   const Rule rule_;
   std::mutex mutex_;
-  std::set<std::string> covers_;  ///< streams of pictures in still formats, by their ids
+  std::set<std::string> covers_;  ///< streams of pictures in still formats, by id
 };
 
 }  // namespace spidar

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads each film in a process of its own, so that a demuxer or decoder that crashes costs one
-/// film.
+/// Reads each film in a process of its own, so that a crash of a demuxer or decoder costs one film.
 #pragma once
 
 #include <functional>
@@ -16,24 +15,23 @@ namespace spidar::tools {
 struct FilmJob {
   std::string film;
   std::string track;
-  /// The properties with which the track is recorded, or was; `feel` has the rules themselves, not
-  /// the name of their file.
+  /// The properties for the recording of the track; `feel` has the rules themselves, not the name
+  /// of their file.
   RecordProperties properties;
-  bool is_summarised = false;  ///< the result has a summary
+  bool is_summarised = false;  ///< whether the result has a summary
 };
 
 struct FilmResult {
   std::string felt;    ///< how much of the film is felt, and why the rest is not
-  std::string remark;  ///< a remark for the user; usually empty
+  std::string remark;  ///< for the user; usually empty
   std::string other;   ///< why the existing track is not the one that would be recorded; or empty
   bool is_by_others =
       false;     ///< the existing track can be read, and does not say that it was recorded
-  Json summary;  ///< of the track, an object; without is_summarised, it is empty
+  Json summary;  ///< of the track, an object; empty without is_summarised
 };
 
-/// Records the film of `job` into `part`. `tell` is called with the percentage that is done,
-/// whenever it rises. Throws std::runtime_error, which says why that failed, or how the process
-/// ended.
+/// Records the film of `job` into `part`. `tell` is called with the percentage of the work,
+/// whenever it rises. Throws std::runtime_error with the reason, or with how the process ended.
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
                              const std::function<void(int percent)>& tell);
 
@@ -42,8 +40,8 @@ FilmResult record_in_process(const FilmJob& job, const PartFile& part,
 /// cannot be read, or the process fails.
 FilmResult check_in_process(const FilmJob& job);
 
-/// The main function of such a process; returns −1 when the arguments are those of a user. To be
-/// called before gst_init().
+/// The main function of such a process; returns −1 when the arguments are those of a user. Call
+/// this before gst_init().
 int run_film_process(int argc, char** argv);
 
 }  // namespace spidar::tools

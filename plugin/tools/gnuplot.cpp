@@ -25,7 +25,7 @@ namespace {
   throw std::runtime_error(std::string("gnuplot: ") + std::strerror(error) + hint);
 }
 
-/// A file in memory, which needs no folder for temporary files, that is empty, or contains `text`.
+/// A file in memory, which needs no folder for temporary files, with the content `text`.
 std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = "") {
   const int descriptor = memfd_create("spidartrack", MFD_CLOEXEC);
   if (descriptor < 0) fail(errno);
@@ -38,8 +38,8 @@ std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = ""
   return file;
 }
 
-/// Returns gnuplot's status, as waitpid() reports it. It has no file names, since it runs one that
-/// begins with | or < as a command.
+/// Returns gnuplot's status, as waitpid() reports it. gnuplot gets no file names, because it runs a
+/// name that begins with | or < as a command.
 int run(int in, int out, int errors) {
   // Without the settings of the user's own ~/.gnuplot. The signals that this program blocks are to
   // end gnuplot.
@@ -52,7 +52,7 @@ int run(int in, int out, int errors) {
   return status;
 }
 
-/// With a colon before it; empty if there is none.
+/// Begins with a colon; empty if there is no line.
 std::string last_line(FILE* file) {
   std::rewind(file);
   std::string last;

@@ -30,7 +30,6 @@
 namespace spidar::tools {
 namespace {
 
-/// A film that is done.
 struct RecordedFilm {
   std::string film;
   std::filesystem::path track;
@@ -44,8 +43,8 @@ struct RecordedFilm {
   throw std::runtime_error("the manifest " + path + " cannot be written: " + output_reason(errno));
 }
 
-/// A line of JSON for the manifest, without the end of the line. Unless the film failed, it has
-/// what the track says of itself.
+/// A line of JSON for the manifest, without the end of the line. Unless the film failed, the line
+/// has the statements of the track about itself.
 std::string manifest_line(const RecordedFilm& film) {
   Json line = {{"film", film.film},
                {"result", film.result},
@@ -57,8 +56,8 @@ std::string manifest_line(const RecordedFilm& film) {
   return json_text(line);
 }
 
-/// Whether its first line is as manifest_line() makes them. A pipe, or a device, has none, and
-/// which links are followed open_output() knows.
+/// Whether the first line is one of manifest_line(). A pipe, or a device, has none, and
+/// open_output() knows which links may be followed.
 bool is_new_or_manifest(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_symlink(path, none) || !std::filesystem::is_regular_file(path, none) ||
@@ -92,11 +91,10 @@ class ManifestFile {
   ManifestFile(const ManifestFile&) = delete;
   ManifestFile& operator=(const ManifestFile&) = delete;
 
-  /// Throws std::runtime_error when the line cannot be written.
   void add(const RecordedFilm& film) const {
     if (descriptor_ < 0) return;
     const std::string line = manifest_line(film) + "\n";
-    // In one call, so that lines of several writers do not mix.
+    // A single call keeps lines of several writers apart.
     const ssize_t written = write(descriptor_, line.data(), line.size());
     if (written >= 0 && static_cast<size_t>(written) < line.size()) errno = ENOSPC;
     if (written < 0 || static_cast<size_t>(written) < line.size()) fail(path_);
@@ -109,7 +107,7 @@ class ManifestFile {
 
 namespace fs = std::filesystem;
 
-/// How often it is looked whether another process has finished a track.
+/// The period of checks whether another process has finished a track.
 constexpr std::chrono::milliseconds kLook{200};
 
 /// Records a list of films with several processes, for each of which a thread waits.
@@ -128,7 +126,7 @@ class FilmBatch {
         workers.emplace_back([this] { work(); });
       }
     } catch (const std::system_error&) {
-      // The system gives no more threads: those that there are take longer.
+      // The system gives no more threads, so the present ones take longer.
     }
     work();
     for (std::thread& worker : workers) worker.join();
@@ -143,7 +141,7 @@ class FilmBatch {
     bool is_elsewhere = false;  ///< another process is recording it
   };
 
-  /// Returns their paths. No output takes the place of one of them.
+  /// Returns the paths of the films. No output may replace one of them.
   static std::vector<std::string> note_films(const std::vector<ListedFilm>& films) {
     std::vector<std::string> paths;
     for (const ListedFilm& film : films) {
@@ -153,7 +151,7 @@ class FilmBatch {
     return paths;
   }
 
-  /// Nothing looks for tracks in a folder that nobody has named.
+  /// Nothing searches tracks in a folder that nobody has named.
   void tell_where() {
     if (options_.folder.empty() || options_.films.empty()) return;
     std::error_code none;
@@ -167,7 +165,7 @@ class FilmBatch {
         fs::absolute(options_.folder, none).lexically_normal().string());
   }
 
-  /// Queues the films, but for those whose track has the same name as that of an earlier one.
+  /// Queues the films, except for those whose track has the same name as that of an earlier one.
   void claim_names() {
     std::map<fs::path, size_t> first;
     for (size_t i = 0; i < options_.films.size(); ++i) {
@@ -239,7 +237,7 @@ class FilmBatch {
             !options_.manifest.empty()};
   }
 
-  /// The folder itself is there, unless it has gone since.
+  /// The folder itself exists, unless it has gone since.
   void make_subfolder(size_t index) const {
     const fs::path& subfolder = options_.films[index].subfolder;
     if (options_.folder.empty() || subfolder.empty() || !fs::is_directory(options_.folder)) return;
@@ -285,8 +283,7 @@ class FilmBatch {
   std::deque<Film> waiting_;
 };
 
-/// Makes the folder if that in which it is to be is there: what is missing may be a share that is
-/// not mounted.
+/// Makes the folder if its parent exists: a missing parent may be a share that is not mounted.
 void make_folder(const fs::path& folder) {
   std::error_code error;
   if (folder.empty() || fs::is_directory(folder, error)) return;

@@ -21,7 +21,7 @@ struct ConvertOptions {
   std::string from, to;
   bool force = false;          ///< here and below: PartFile::Replaces::any
   std::string axis;            ///< the channel by its name; empty: the usual one
-  std::optional<double> gain;  ///< empty: that which fills the range of `to`
+  std::optional<double> gain;  ///< empty: fills the range of `to`
   SaveOptions save;
 };
 
@@ -30,7 +30,7 @@ struct ExportOptions {
   std::string track;                           ///< empty: that of the film, else it is recorded
   std::optional<RecordProperties> properties;  ///< with which it is recorded in any case
   bool force = false;
-  bool embed = false;  ///< the film into the page
+  bool embed = false;  ///< puts the film into the page
 };
 
 /// Gives a file its name, and prints the remark of PartFile::publish().
@@ -43,7 +43,7 @@ int record_films(const RecordOptions& options);
 int print_info(const std::string& track_or_film, bool as_json);
 int check_track(const std::string& track, double max_force_N, double max_torque_Nm);
 int convert_track(const ConvertOptions& options);
-/// `force`: see PartFile::Replaces::any.
+/// For `force` see PartFile::Replaces::any.
 int plot_track(const std::string& track, const std::string& png, bool force);
 int show_film(const std::string& film, const std::string& to, bool force, bool draws_subtitles,
               const RecordProperties& properties);

@@ -60,7 +60,7 @@ void set_patience(int socket, int seconds) {
   setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
 }
 
-/// The will, the device's file, and a descriptor by which the end of this process is noticed.
+/// Sends the will, the device's file, and a descriptor that shows the end of this process.
 bool send_will(int socket, const LastWill& will, int64_t until_ns) {
   const int self = static_cast<int>(syscall(SYS_pidfd_open, getpid(), 0));
   if (self < 0) return false;
@@ -112,9 +112,9 @@ bool Guardian::start(const std::vector<std::string>& command, const LastWill& wi
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
   socket_ = ends[0];
   std::vector<std::pair<int, int>> files{{ends[1], STDIN_FILENO}};
-  // systemd-run would complain there, after which the guardian is started without it.
+  // systemd-run would print an error there, after which the guardian is started without it.
   if (command.size() > 1) files.emplace_back(kDevNull, STDERR_FILENO);
-  // In a session of its own, so that Ctrl-C in a terminal reaches only the host.
+  // In a session of its own, Ctrl-C in a terminal reaches only the host.
   process_ = start_child(command[0], command, files, POSIX_SPAWN_SETSID);
   const int error = errno;
   ::close(ends[1]);
@@ -148,7 +148,7 @@ bool Guardian::greet(const LastWill& will, int patience_s) {
     return uninterrupted_until(until_ns, [&] { return recv(socket_, &answer, 1, 0); }) == 1;
   };
   if (send_will(socket_, will, until_ns) && is_answered()) return true;
-  // Whatever was started has no will, or is a program that sleeps.
+  // The started program has no will, or is one that sleeps.
   const int error =
       errno == EAGAIN || errno == EINTR || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
   send_signal(SIGKILL);
@@ -178,15 +178,15 @@ bool Guardian::watch(bool pulling) noexcept {
   const int64_t now_ns = monotonic_now_ns();
   int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
   stood_still_ |= pulling_ && passed_ns > kSilence_ms * kMillisecond_ns;
-  // At rest nothing is at stake: what has stopped this process, as a virtual machine that gets no
-  // processor, may have stopped the guardian as well, and a pause counts as a beat.
+  // At rest nothing is at stake: whatever has suspended this process, as a virtual machine that
+  // gets no processor, may have suspended the guardian as well, and a pause counts as a heartbeat.
   if (!pulling_) passed_ns = std::min(passed_ns, kBeat_ns);
   silent_ns_ += passed_ns;
   GuardianWord answer{};
   ssize_t got = 0;
   while ((got = recv(socket_, &answer, 1, MSG_DONTWAIT)) > 0) {
     stood_still_ |= answer == GuardianWord::kZeroed;
-    silent_ns_ = passed_ns;  // it said so after the last call, at some time
+    silent_ns_ = passed_ns;  // the answer came after the last call, at some time
   }
   if (stood_still_ || got == 0 || errno != EAGAIN) return false;
   if (silent_ns_ > kAnswer_ms * kMillisecond_ns) return false;
@@ -207,7 +207,7 @@ void Guardian::finish(End end) noexcept {
   if (getpid() == owner_) {
     send_signal(SIGCONT);  // it may have been stopped
     set_patience(socket_, kEnd_s);
-    // Not close(), because a forked child may hold the socket, too.
+    // close() would not suffice, because a forked child may hold the socket, too.
     shutdown(socket_, SHUT_WR);
     char answer = 0;
     ssize_t got = 0;

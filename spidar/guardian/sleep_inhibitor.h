@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Keeps the machine from being suspended while motors pull.
 #pragma once
 
 #include <array>
@@ -15,7 +14,7 @@
 namespace spidar {
 
 /// The path of a program of systemd; empty when systemd is not running. $SPIDAR_SYSTEMD names
-/// another folder for these programs; if it is empty, none is used.
+/// another folder for these programs; if that is empty, no program is used.
 inline std::string systemd_program(const char* name) {
   const char* folder = secure_getenv("SPIDAR_SYSTEMD");
   // The check that sd_booted(3) documents.
@@ -23,10 +22,10 @@ inline std::string systemd_program(const char* name) {
   return *folder ? std::string(folder) + "/" + name : std::string();
 }
 
-/// Suspending freezes a host and its guardian at the same time, so that nobody sets the motors to
-/// zero. systemd-inhibit holds a lock of logind as long as its command runs; the command is a cat
-/// that reads from this process, so that the lock ends with it. Without logind, or without
-/// permission, there is no lock.
+/// Keeps the machine from being suspended while motors pull. Suspending freezes a host and its
+/// guardian at the same time, so that nobody sets the motors to zero. systemd-inhibit holds a lock
+/// of logind as long as its command runs; the command is a cat that reads from this process, so the
+/// lock ends with this process. Without logind, or without permission, there is no lock.
 class SleepInhibitor {
  public:
   SleepInhibitor() = default;
@@ -34,7 +33,6 @@ class SleepInhibitor {
   SleepInhibitor(const SleepInhibitor&) = delete;
   SleepInhibitor& operator=(const SleepInhibitor&) = delete;
 
-  /// Does not wait for logind.
   void hold(bool wanted) noexcept {
     while (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
     if (wanted == (pipe_ >= 0)) return;

@@ -26,7 +26,7 @@ uint64_t lines_in(std::string_view text) {
   return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// What reads from a pipe may act on it, as a motor does.
+/// The reader of a pipe may act on the lines, as a motor does.
 std::chrono::milliseconds period_of(int file) {
   constexpr std::chrono::milliseconds kOfPipe{1};
   struct stat status {};
@@ -49,7 +49,7 @@ struct LineWriter::Output {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// Until it is asked to end, or the writing fails.
+  /// Runs until the writer ends, or the writing fails.
   void run() noexcept {
     std::unique_lock<std::mutex> lock(mutex);
     while (true) {
@@ -77,7 +77,7 @@ struct LineWriter::Output {
     changed.notify_all();
   }
 
-  /// Without the lock.
+  /// Call this without the lock.
   Status write_lines(std::string_view text) {
     const SigpipeBlock no_sigpipe;
     Status done;
@@ -95,7 +95,7 @@ struct LineWriter::Output {
     return done;
   }
 
-  /// 0, EAGAIN when it is given up, or why it fails.
+  /// Returns 0, EAGAIN when it gives up, or the error.
   int write_all(std::string_view text) {
     while (!text.empty()) {
       const ssize_t written =
@@ -119,7 +119,7 @@ struct LineWriter::Output {
     return gives_up;
   }
 
-  /// With the lock.
+  /// Call this with the lock held.
   void drop_waiting() {
     status.dropped += std::exchange(waiting_lines, 0);
     waiting.clear();
@@ -130,7 +130,7 @@ struct LineWriter::Output {
   const int file;
   const std::chrono::milliseconds period;  // after which it is written
   std::atomic<uint64_t> written_bytes{0};
-  std::mutex mutex;  // of all that follows
+  std::mutex mutex;  // guards all members below
   std::condition_variable changed;
   std::string waiting;
   uint64_t waiting_lines = 0;
@@ -161,8 +161,7 @@ bool LineWriter::is_stuck() {
   return stuck_;
 }
 
-/// Until `condition`, which is called with the lock, or until the other end is found to stand
-/// still.
+/// Waits for `condition`, which is called with the lock held, or until the other end stands still.
 template <typename Condition>
 void LineWriter::await(Condition condition) {
   std::unique_lock<std::mutex> lock(output_->mutex);

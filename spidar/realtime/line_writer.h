@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Writes lines to a file, a pipe or a device whose other end may stand still.
 #pragma once
 
 #include <chrono>
@@ -12,39 +11,37 @@
 
 namespace spidar {
 
-/// Writes lines in a thread of its own, so that the caller does not wait for an other end that
-/// stands still: a reader that has stopped reading, or a network folder. Lines that it does not
-/// take are dropped as a whole, and counted. One that is only slow loses nothing. Even when the
-/// process is killed, the last line of the output is complete, and what was added more than kPeriod
-/// ago is there.
+/// Writes lines to a file, a pipe or a device whose other end may stand still: a reader that has
+/// stopped reading, or a network folder. A thread of its own writes, so that the caller does not
+/// wait. Lines that the other end does not take are dropped as a whole, and counted. A slow one
+/// loses nothing. Even when the process is killed, the last line of the output is complete, and
+/// lines that were added more than kPeriod ago are there.
 ///
-/// All methods are called by one thread at a time.
+/// One thread at a time calls the methods.
 class LineWriter {
  public:
   static constexpr std::chrono::milliseconds kPeriod{50};
-  /// The most that may wait to be written: ten seconds of a haptic trace, which has 0.4 MB a
-  /// second.
+  /// The most data that wait: ten seconds of a haptic trace, which has 0.4 MB a second.
   static constexpr size_t kMaxWaiting_bytes = size_t{4} << 20;
-  /// The other end counts as standing still when it has taken nothing for this time.
+  /// The other end stands still when it has taken nothing for this time.
   static constexpr std::chrono::milliseconds kStandstill{500};
-  /// The longest wait of a call for an other end that is slow.
+  /// The longest wait of a call for a slow other end.
   static constexpr std::chrono::milliseconds kLongestWait{5000};
 
   struct Status {
     uint64_t lines = 0;    ///< handed to the operating system
-    uint64_t dropped = 0;  ///< because they were not taken, or after an error
+    uint64_t dropped = 0;  ///< not taken, or after an error
     uint64_t waiting = 0;  ///< not taken yet
     int error = 0;         ///< errno of the write that failed and ended the output; 0: none
   };
 
   LineWriter() = default;
-  /// Calls close().
   ~LineWriter() { close(); }
   LineWriter(const LineWriter&) = delete;
   LineWriter& operator=(const LineWriter&) = delete;
 
-  /// Opens `path` as open_own_output() does; a pipe that nobody reads is an error. Returns empty,
-  /// or why the file cannot be written.
+  /// Opens `path` as open_own_output() does; a pipe that nobody reads is an error. Returns an empty
+  /// text, or why the file cannot be written.
   std::string open(const std::string& path, std::string_view begin);
   bool is_open() const { return output_ != nullptr; }
 
@@ -53,8 +50,8 @@ class LineWriter {
   void add(std::string_view lines);
   /// Returns when all lines are written, or the other end stands still.
   void flush();
-  /// Calls flush(), and drops what has not been taken by then. If the system does not return from a
-  /// write, the thread is left behind, and ends when it returns.
+  /// Calls flush(), and drops lines that have not been taken by then. A thread that waits for the
+  /// system is left behind, and ends later.
   Status close();
 
   /// The counts so far or, after close(), until then.
@@ -69,9 +66,9 @@ class LineWriter {
 
   std::shared_ptr<Output> output_;
   std::thread thread_;
-  Status last_;  ///< of the output that was closed
+  Status last_;  ///< of the closed output
   bool stuck_ = false;
-  uint64_t stuck_at_ = 0;  ///< what had been written by then
+  uint64_t stuck_at_ = 0;  ///< bytes written by then
 };
 
 }  // namespace spidar

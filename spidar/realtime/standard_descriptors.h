@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Descriptors that a program opens: the three standard ones, and those of its output, which may
-/// be pipes whose reader is gone.
 #pragma once
 
 #include <cerrno>
@@ -22,9 +20,8 @@
 namespace spidar {
 
 /// Opens /dev/null for each of the descriptors 0 to 2 that is closed, as after `>&-` in a shell.
-/// Otherwise the next file that the program opens gets that number, and what is printed, or what a
-/// library writes to the standard error, goes into the file. To be called before anything is
-/// opened.
+/// Otherwise the next file that the program opens gets that number, and output of the program or of
+/// a library goes into that file. Call this before anything is opened.
 inline void open_standard_descriptors() {
   int lowest_free = 0;
   do {
@@ -34,7 +31,7 @@ inline void open_standard_descriptors() {
 }
 
 /// Raises the number of descriptors that the process may have open to the largest that it may set,
-/// for itself and the processes that it starts. Returns it.
+/// for itself and the processes that it starts. Returns that number.
 inline rlim_t raise_descriptor_limit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return 0;
@@ -42,7 +39,6 @@ inline rlim_t raise_descriptor_limit() {
   return setrlimit(RLIMIT_NOFILE, &limit) == 0 ? limit.rlim_max : before;
 }
 
-/// Whether `descriptor` is the file that the standard output or the standard error is.
 inline bool is_standard_output(int descriptor, int standard) noexcept {
   struct stat one {
   }, other{};
@@ -50,7 +46,7 @@ inline bool is_standard_output(int descriptor, int standard) noexcept {
          one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/// Opens what a link leads to: a device or pipe, as /dev/stdout may be; or the file of the standard
+/// Opens the target of a link: a device or pipe, as /dev/stdout may be; or the file of the standard
 /// output or the standard error, which is continued at its position. Returns −1 with ELOOP in errno
 /// for other files.
 inline int open_linked_output(const char* path) noexcept {
@@ -69,8 +65,8 @@ inline int open_linked_output(const char* path) noexcept {
   return found;
 }
 
-/// Opens a file that the user has named for writing, and creates it if it is not there. `flags` are
-/// O_TRUNC or O_APPEND, and O_NONBLOCK where writing is not to wait either; opening never does. A
+/// Opens a file that the user has named for writing, and creates it if it is missing. `flags` are
+/// O_TRUNC or O_APPEND, and O_NONBLOCK where writing must not wait either; opening never does. A
 /// link to another file is not followed, so that nobody who may write into the folder can have that
 /// file overwritten; other links are followed (open_linked_output()). Returns the descriptor, or −1
 /// with the reason in errno: ELOOP for such a link, EPIPE for a pipe that nobody reads.
@@ -91,14 +87,13 @@ inline int open_output(const char* path, int flags) noexcept {
   return opened;
 }
 
-/// The reason, for messages; `error` is what open_output() leaves in errno.
+/// The reason, for messages; `error` is the errno of open_output().
 inline std::string output_reason(int error) {
   return error == ELOOP   ? "it is a link, and what it leads to is not overwritten"
          : error == EPIPE ? "it is a pipe that nobody reads; start the reader first"
                           : std::strerror(error);
 }
 
-/// Whether the file is empty, or begins with `begin`.
 inline bool is_empty_or_begins(const char* path, std::string_view begin) {
   const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) return false;
@@ -108,11 +103,11 @@ inline bool is_empty_or_begins(const char* path, std::string_view begin) {
   return bytes == 0 || (bytes == static_cast<ssize_t>(begin.size()) && found == begin);
 }
 
-/// As open_output() with O_NONBLOCK, but the file is emptied and locked until it is closed, so that
-/// two traces do not overwrite each other. Devices, pipes and the standard output may have several
-/// writers, and some network file systems have no locks. A file is emptied only if it begins with
-/// `begin`, as all files of the caller do, so that a film is never emptied. Returns −1 with the
-/// reason in words.
+/// Works like open_output() with O_NONBLOCK, but empties the file and locks it until it is closed,
+/// so that two traces do not overwrite each other. Devices, pipes and the standard output may have
+/// several writers, and some network file systems have no locks. A file is emptied only if it
+/// begins with `begin`, as all files of the caller do, so that a film is never emptied. Returns −1
+/// with the reason in words.
 inline int open_own_output(const char* path, std::string_view begin, std::string& reason) {
   const int opened = open_output(path, O_NONBLOCK);
   struct stat status {};
@@ -137,9 +132,10 @@ inline int open_own_output(const char* path, std::string_view begin, std::string
   return -1;
 }
 
-/// During its lifetime, SIGPIPE does not end the process when the calling thread writes to a closed
-/// pipe; the write fails with EPIPE. A library must not change the application's signal handlers,
-/// so the signal is blocked for this thread only, and a pending one is consumed at the end.
+/// While this object lives, SIGPIPE does not end the process when the calling thread writes to a
+/// closed pipe; the write fails with EPIPE. A library must not change the application's signal
+/// handlers, so the signal is blocked for this thread only, and a pending one is consumed at the
+/// end.
 class SigpipeBlock {
  public:
   SigpipeBlock() noexcept {

@@ -22,15 +22,14 @@ struct _GstSpidarFeelBin {
   GstBin parent;
 
   gchar* properties;
-  bool turns;  // the player does not
+  bool turns;  // whether the bin turns pictures, because the player does not
   // The elements of the bin, in this order.
   GstElement* before;
-  GstElement* flip;    // nullptr until a picture is to be turned
-  GstElement* middle;  // accepts what spidarmotion accepts; kept while that is in its place
+  GstElement* flip;    // null until a picture must be turned
+  GstElement* middle;  // accepts what spidarmotion accepts; kept while spidarmotion is in its place
   GstElement* after;
-  // The spidarmotion that has the device; nullptr: nothing is felt. The first data that come put it
-  // in the place of the middle. Read by the streaming thread and written in state changes,
-  // atomically.
+  // The spidarmotion that has the device; null: nothing is felt. It replaces the middle when the
+  // first data come. Read by the streaming thread and written in state changes, atomically.
   GstElement* motion;
   // Between `before` and `after`: the middle, that spidarmotion, or a bin that gives it small
   // copies of frames in GPU memory.
@@ -43,7 +42,6 @@ struct _GstSpidarFeelBin {
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
 
-/// The bin of this process that has the device.
 static std::atomic<GstSpidarFeelBin*> device_owner{nullptr};
 
 static bool take_device(GstSpidarFeelBin* self) {
@@ -93,14 +91,14 @@ static bool is_set(const char* properties, const char* name) {
   return found;
 }
 
-/// Of the frames that come; empty before the first.
+/// The caps of the frames; empty before the first.
 static Ref<GstCaps> current_caps(GstSpidarFeelBin* self) {
   const Ref<GstPad> pad(gst_element_get_static_pad(self->before, "sink"));
   GstCaps* const caps = gst_pad_get_current_caps(pad.get());
   return Ref<GstCaps>(caps ? caps : gst_caps_new_empty());
 }
 
-/// Without a device, what would be felt is shown, unless the user has said what is to be drawn.
+/// Shows the force when there is no device, unless the user has chosen what is drawn.
 static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstMessage* message) {
   const GstStructure* told = gst_message_get_structure(message);
   gboolean simulated = FALSE;
@@ -114,8 +112,9 @@ static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstM
   }
 }
 
-/// The video continues: an error of the device becomes a warning in the player. Players may hide
-/// warnings and information, so they are also printed on standard error.
+/// Passes a message on, so that the video continues: an error of the device becomes a warning in
+/// the player. Players may hide warnings and information, so they are also printed on standard
+/// error.
 static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
     gst_element_post_message(GST_ELEMENT(self), gst_message_ref(message));
@@ -133,7 +132,7 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   const bool refused = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR;
   constexpr const char* kWithout = "The video goes on without force.";
   g_printerr("spidar-feel: %s%s%s\n", error->message, refused ? ". " : "", refused ? kWithout : "");
-  // With its own code and location.
+  // The new message has the code and location of the old one.
   const auto message_of = GST_MESSAGE_TYPE(message) == GST_MESSAGE_INFO ? gst_message_new_info
                                                                         : gst_message_new_warning;
   gst_element_post_message(GST_ELEMENT(self),
@@ -142,8 +141,8 @@ static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   g_free(details);
 }
 
-/// Returns a spidarmotion that has opened its device, or nullptr when it could not. It is in no bin
-/// yet, so its messages are collected on a bus of its own.
+/// Returns a spidarmotion that has opened its device, or null. It is in no bin yet, so its messages
+/// are collected on a bus of its own.
 static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   Ref<GstElement> motion = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!motion) return nullptr;
@@ -151,7 +150,7 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   set_properties(motion.get(), self->properties);
   const Ref<GstBus> bus(gst_bus_new());
   gst_element_set_bus(motion.get(), bus.get());
-  // Without a device, no spidarmotion is to look at the frames, whatever is asked for while it
+  // Without a device, no spidarmotion may measure the frames, whatever the user requests while it
   // plays.
   gint while_playing = 0;
   g_object_get(motion.get(), "on-device-error", &while_playing, nullptr);
@@ -175,24 +174,24 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   return nullptr;
 }
 
-/// Without asking the elements upstream to negotiate again: `to` accepts what was accepted before.
-/// theoradec fails when it has to during a seek.
+/// Links without another negotiation upstream: `to` accepts the previous caps. theoradec fails when
+/// it must negotiate during a seek.
 static void link_quietly(GstElement* from, GstElement* to) {
   constexpr auto kQuietly =
       static_cast<GstPadLinkCheck>(GST_PAD_LINK_CHECK_DEFAULT | GST_PAD_LINK_CHECK_NO_RECONFIGURE);
   gst_element_link_pads_full(from, "src", to, "sink", kQuietly);
 }
 
-/// The element before spidarmotion.
 static GstElement* front(GstSpidarFeelBin* self) {
   return self->flip ? self->flip : self->before;
 }
 
-/// Replaces what is in place by `in` while no data flow between `before` and `after`.
+/// Replaces the element in place by `in` while no data flow between `before` and `after`.
 static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
   GstElement* const out = self->in_place;
   gst_element_unlink_many(front(self), out, self->after, nullptr);
-  // Not NULL: a spidarmotion keeps its device, at rest, for the next frames that it can measure.
+  // In READY, unlike NULL, a spidarmotion keeps its device, at rest, for the next frames that it
+  // can measure.
   gst_element_set_state(out, GST_STATE_READY);
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);
@@ -202,7 +201,6 @@ static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
   spidar::follow_state(GST_ELEMENT(self), in);
 }
 
-/// Takes spidarmotion out of where it is.
 static void stop_measuring(GstSpidarFeelBin* self) {
   if (self->in_place == self->middle) return;
   const Ref<GstElement> before = spidar::new_ref(self->in_place);
@@ -242,7 +240,7 @@ static bool is_turned_behind(GstSpidarFeelBin* self) {
          !spidar::find_path_downstream(GST_ELEMENT(self), follows_tag).empty();
 }
 
-/// Of a picture that has been turned. The videoflip of GStreamer 1.22 leaves the tag as it was.
+/// Marks a turned picture as upright. The videoflip of GStreamer 1.22 leaves the tag as it was.
 static GstPadProbeReturn set_upright(GstPad*, GstPadProbeInfo* info, gpointer) {
   auto* event = GST_PAD_PROBE_INFO_EVENT(info);
   if (GST_EVENT_TYPE(event) != GST_EVENT_TAG) return GST_PAD_PROBE_OK;
@@ -270,7 +268,7 @@ static void add_flip(GstSpidarFeelBin* self) {
   spidar::follow_state(GST_ELEMENT(self), flip);
 }
 
-/// Not by video-direction=auto: the videoflip of GStreamer 1.22 would turn the next film, too.
+/// With video-direction=auto, the videoflip of GStreamer 1.22 would turn the next film, too.
 static void turn_pictures(GstSpidarFeelBin* self) {
   const GstVideoOrientationMethod method = self->orientation.method();
   self->lies = method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
@@ -325,9 +323,8 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
 }
 
 /// After the middle was replaced, `before` negotiates and sends caps and segment again. When a seek
-/// flushes the bin meanwhile, that fails, and the player would stop with an error. The frame is one
-/// that the seek drops anyway. The flush has marked the pad of the bin before it reaches the
-/// elements in it.
+/// flushes the bin meanwhile, that fails, and the player would stop with an error. The seek drops
+/// this frame anyway. The flush has marked the pad of the bin before it reaches the elements in it.
 static GstFlowReturn failed_or_flushed(GstPad* pad, GstFlowReturn result) {
   if (result != GST_FLOW_NOT_NEGOTIATED && result != GST_FLOW_ERROR) return result;
   GST_OBJECT_LOCK(pad);
@@ -353,7 +350,7 @@ static void begin_to_feel(GstSpidarFeelBin* self) {
   }
 }
 
-/// Called while the pads of all elements are inactive.
+/// Call this while the pads of all elements are inactive.
 static void stop_feeling(GstSpidarFeelBin* self) {
   if (!self->motion) return;
   stop_measuring(self);
@@ -373,7 +370,7 @@ static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element
   return result;
 }
 
-/// Players hide information such as which track is felt: spidarmotion's is passed on.
+/// Players hide information such as which track is felt, so spidarmotion's is passed on.
 static void gst_spidar_feel_bin_handle_message(GstBin* bin, GstMessage* message) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(bin);
   const gpointer motion = g_atomic_pointer_get(&self->motion);
@@ -407,12 +404,12 @@ static void gst_spidar_feel_bin_class_init(GstSpidarFeelBinClass* klass) {
       "spidarmotion for players that offer no way to add a filter", "The gst-spidar authors");
 }
 
-/// What spidarmotion accepts; nullptr when the element does not exist.
+/// The caps that spidarmotion accepts; null when the element does not exist.
 static GstCaps* motion_caps() {
   const Ref<GstElementFactory> factory(gst_element_factory_find("spidarmotion"));
   if (!factory) return nullptr;
   const GList* pads = gst_element_factory_get_static_pad_templates(factory.get());
-  // Both pads have the same.
+  // Both pads have the same template.
   return gst_static_pad_template_get_caps(static_cast<GstStaticPadTemplate*>(pads->data));
 }
 

@@ -34,7 +34,7 @@ struct _GstSpidarFeelTracer {
 
 G_DEFINE_TYPE(GstSpidarFeelTracer, gst_spidar_feel_tracer, GST_TYPE_TRACER)
 
-static constexpr guint kPlayVideo = 1;  // of GstPlayFlags, which is no public type
+static constexpr guint kPlayVideo = 1;  // a value of GstPlayFlags, which is no public type
 
 static bool is_playbin(GstElement* element) {
   GstElementFactory* factory = gst_element_get_factory(element);
@@ -42,7 +42,7 @@ static bool is_playbin(GstElement* element) {
   return g_strcmp0(name, "playbin") == 0 || g_strcmp0(name, "playbin3") == 0;
 }
 
-/// Of GStreamer itself, which spidar-feel FILM runs.
+/// Whether spidar-feel FILM runs the player of GStreamer itself.
 static bool is_own_player() {
   return g_strcmp0(g_get_prgname(), "gst-play-1.0") == 0;
 }
@@ -52,15 +52,15 @@ static void set_filter(GstElement* element) {
   guint flags = 0;
   g_object_get(element, "video-filter", &before, "flags", &flags, nullptr);
   const spidar::Ref<GstElement> own(before);
-  // The application's own, or the one that this tracer set for the previous film.
+  // The filter is the application's own, or that of this tracer for the previous film.
   if (own || (flags & kPlayVideo) == 0) return;
   GstElement* filter =
       gst_spidar_feel_bin_new(secure_getenv(SPIDAR_FEEL_VARIABLE), is_own_player());
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 
-/// When it begins to play, a playbin with video has taken the filter. Said once, and not again
-/// after each pause.
+/// When it begins to play, a playbin with video has taken the filter. Prints this once, and not
+/// again after each pause.
 static void tell_without_video(GstElement* element) {
   static std::atomic<bool> has_told{false};
   GstElement* filter = nullptr;
@@ -74,7 +74,8 @@ static void tell_without_video(GstElement* element) {
       "spidarsink\n");
 }
 
-/// Called for every element, in any thread: returns at once for anything but players.
+/// GStreamer calls this for every element, in any thread: it returns at once for anything but
+/// players.
 static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED && is_playbin(element)) set_filter(element);
@@ -85,14 +86,14 @@ static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
 
 static std::atomic<bool> has_failed{false};
 
-/// gst-play-1.0 tells of a film that it cannot play, and ends with status 0.
+/// gst-play-1.0 reports a film that it cannot play, and ends with status 0.
 static void end_with_status() {
   if (!has_failed) return;
   std::fflush(nullptr);
   _exit(1);
 }
 
-/// What an element in a player reports is no error of the film before the player reports it.
+/// The report of an element in a player is no error of the film before the player reports it.
 static void before_message(GstTracer*, GstClockTime, GstElement* element, GstMessage* message) {
   if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_ERROR || !is_playbin(element)) return;
   has_failed = has_failed || is_own_player();
@@ -112,7 +113,7 @@ static gboolean gst_spidar_feel_tracer_register(GstPlugin* plugin) {
   return gst_tracer_register(plugin, "spidarfeel", GST_TYPE_SPIDAR_FEEL_TRACER);
 }
 
-// A plugin of its own, so that GStreamer loads the tracer only for spidar-feel.
+// The tracer is a plugin of its own, so that GStreamer loads it only for spidar-feel.
 #define PACKAGE "gst-spidar"
 GST_PLUGIN_DEFINE(GST_VERSION_MAJOR, GST_VERSION_MINOR, spidarfeel,
                   "Lets the videos of any GStreamer player be felt",

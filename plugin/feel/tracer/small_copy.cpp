@@ -12,21 +12,21 @@
 namespace spidar {
 namespace {
 
-/// Height of a copy: the analysis halves larger frames until they have about this many lines.
+/// The height of a copy: the analysis halves larger frames until they have about this many lines.
 constexpr int kCopyHeight_px = 480;
 
 /// How a small copy is made of one kind of memory.
 struct Copier {
   const char* feature;
-  const char* element;   ///< that must be there
+  const char* element;   ///< required for this copier
   const char* reduce;    ///< in the language of gst-launch-1.0, before the caps of the copy
   const char* memory;    ///< of the copy
-  const char* download;  ///< gives frames in the processor's memory
+  const char* download;  ///< moves frames to the processor's memory
 };
 constexpr Copier kCopiers[] = {
     {"memory:GLMemory", "glcolorscale", "glcolorconvert ! glcolorscale",
      "video/x-raw(memory:GLMemory),format=RGBA", "gldownload"},
-    // It downloads by itself.
+    // This element downloads by itself.
     {"memory:VAMemory", "vapostproc", "vapostproc", "video/x-raw", "identity"},
 };
 
@@ -67,8 +67,8 @@ GstElement* small_copy_bin_new(const GstCaps* caps, GstElement* motion) {
   if (!copier || !gst_video_info_from_caps(&info, caps)) return nullptr;
   const int height = std::min(info.height, kCopyHeight_px);
   const auto width = static_cast<int>(gst_util_uint64_scale_round(info.width, height, info.height));
-  // The copy goes first: the frame itself may wait for its time in what comes behind. The end of
-  // the branch takes no part in preroll.
+  // The copy goes first: the frame itself may wait for its time in elements behind. The end of the
+  // branch takes no part in preroll.
   std::ostringstream elements;
   elements << "tee name=frames frames. ! queue max-size-buffers=2 max-size-bytes=0 max-size-time=0 "
            << "! " << copier->reduce << " ! " << copier->memory << ",width=" << std::max(width, 1)
@@ -76,7 +76,7 @@ GstElement* small_copy_bin_new(const GstCaps* caps, GstElement* motion) {
            << " name=small  fakesink name=end sync=false async=false";
   GstElement* const bin = gst_parse_bin_from_description(elements.str().c_str(), FALSE, nullptr);
   if (!bin) return nullptr;
-  // No sink to the player: it would seek this one, too.
+  // To the player this must be no sink, which it would seek, too.
   gst_bin_set_suppressed_flags(GST_BIN(bin), GST_ELEMENT_FLAG_SINK);
   const auto part = [bin](const char* name) {
     return Ref<GstElement>(gst_bin_get_by_name(GST_BIN(bin), name));
