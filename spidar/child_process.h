@@ -19,13 +19,12 @@ namespace spidar {
 
 constexpr int kDevNull = -1;
 
-/// Starts the program at the path `program` with `words`, of which the first is its name.
-/// `files` are descriptors of this process, or kDevNull, each with its number in the child; all
-/// else that is open here closes on exec. `flags` are those of posix_spawnattr_setflags(): with
-/// POSIX_SPAWN_SETSIGMASK no signal is blocked in the child, although threads of this library block
-/// all, and with POSIX_SPAWN_SETSIGDEF none is ignored. As this process may have threads, nothing
-/// but posix_spawn() happens between fork and exec. Returns the process, or −1 with the reason in
-/// errno.
+/// Starts the program at the path `program` with `words`, of which the first is its name. `files`
+/// are descriptors of this process, or kDevNull, each with its number in the child; all other files
+/// close on exec. `flags` are those of posix_spawnattr_setflags(): with POSIX_SPAWN_SETSIGMASK no
+/// signal is blocked in the child, although threads of this library block all, and with
+/// POSIX_SPAWN_SETSIGDEF none is ignored. As this process may have threads, nothing but
+/// posix_spawn() happens between fork and exec. Returns the process, or −1 and errno.
 inline pid_t start_child(const std::string& program, std::vector<std::string> words,
                          const std::vector<std::pair<int, int>>& files, int flags) {
   posix_spawn_file_actions_t actions;
@@ -33,7 +32,7 @@ inline pid_t start_child(const std::string& program, std::vector<std::string> wo
   for (const auto& [file, number] : files) {
     if (file == kDevNull) {
       posix_spawn_file_actions_addopen(&actions, number, "/dev/null", O_RDWR, 0);
-    } else {  // one that is copied to its own number stays open
+    } else {  // a descriptor that is copied to its own number stays open
       posix_spawn_file_actions_adddup2(&actions, file, number);
     }
   }

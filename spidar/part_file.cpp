@@ -44,7 +44,7 @@ std::string found_mark(const std::string& path) {
   return found.substr(0, static_cast<size_t>(std::max<ssize_t>(bytes, 0)));
 }
 
-/// Whether `maker` has written the file at `path`, also if its content has been changed.
+/// Whether `maker` has written the file at `path`, even if its content has been changed.
 bool is_written_by(const std::string& path, const std::string& maker) {
   return found_mark(path).compare(0, maker.size() + 1, maker + " ") == 0;
 }
@@ -120,7 +120,7 @@ int make_locked(const std::string& path, const fs::path& target) {
   }
 }
 
-/// The same in every process and on every machine, however long the name: FNV-1a, 64 bits
+/// The name is the same in every process and on every machine: FNV-1a, 64 bits
 /// (draft-eastlake-fnv).
 std::string part_path(const fs::path& place) {
   uint64_t hash = 0xcbf29ce484222325;
@@ -132,8 +132,8 @@ std::string part_path(const fs::path& place) {
   return (place.parent_path() / name).string() + place.extension().string();
 }
 
-/// The file to write for `path`: where a link leads, so that the link stays one and leads to the
-/// new file; otherwise `path`. Throws std::runtime_error for a link that leads to nothing.
+/// The file to write for `path`: the target of a link, so that the link stays; otherwise `path`.
+/// Throws std::runtime_error for a link that leads to nothing.
 fs::path place_of_output(const fs::path& path) {
   std::error_code error;
   if (!fs::is_symlink(path, error)) return path;
@@ -144,12 +144,12 @@ fs::path place_of_output(const fs::path& path) {
                            ", which is not there; remove the link");
 }
 
-/// Gives the open file the permissions of the one at `path`, its access control list among them,
-/// and its owner as far as this user may. Does nothing when there is none.
+/// Gives the open file the permissions of the one at `path`, if any, with its access control list,
+/// and its owner as far as this user may.
 void keep_permissions(int file, const std::string& path) {
   struct stat before {};
   if (stat(path.c_str(), &before) != 0) return;
-  // The mode comes last: a new owner takes bits away, and a group that may not be given gets none.
+  // The mode comes last: a new owner removes bits, and a group that may not be given gets none.
   const bool has_group = fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
   [[maybe_unused]] const int owner = fchown(file, before.st_uid, static_cast<gid_t>(-1));
   fchmod(file, before.st_mode & (has_group ? 0777U : 0707U));

@@ -33,7 +33,7 @@ class PartFile {
     std::string maker;     ///< files that this command has written and nobody changed; empty: none
     bool is_named = true;  ///< whether the user has given the name of the target
     bool is_read =
-        false;  ///< also one that this program reads (note_read()), which else is an error
+        false;  ///< also a file that this program reads (note_read()), otherwise an error
   };
 
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
@@ -77,8 +77,8 @@ class PartFile {
   uint64_t written_ = 0;  ///< bytes
 };
 
-/// Writes `text` to a part file of `file` and publishes it, after another thread or process that
-/// writes it. Throws std::runtime_error with the reason; the old file is unchanged then.
+/// Writes `text` to a part file of `file`, once no other thread or process does, and publishes it.
+/// Throws std::runtime_error with the reason; the old file is then unchanged.
 void replace_file(const std::filesystem::path& file, const std::string& text);
 
 /// From now on, SIGINT, SIGTERM, SIGHUP and SIGXCPU remove all part files before they end the

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Files that are read, as a whole or noted.
+/// Files that this program reads.
 #pragma once
 
 #include <cstddef>

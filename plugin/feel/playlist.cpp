@@ -43,8 +43,7 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// Text that is not UTF-8 comes from an old Windows, or is a name of bytes that no encoding
-/// explains.
+/// Text that is not UTF-8 comes from an old Windows, or is a name of unexplained bytes.
 std::string utf8_of(const std::string& text) {
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
   const std::string converted = taken(g_convert_with_fallback(
@@ -75,8 +74,7 @@ std::optional<Names> named_in_lines(const std::string& path) {
   return in_order;
 }
 
-/// The names in XSPF, ASX and WPL. Few of the latter two are correct XML, so they are parsed as
-/// HTML.
+/// The names in XSPF, ASX and WPL. The latter two are parsed as HTML, because few are correct XML.
 Names named_in_xml(const std::string& path) {
   std::string text;
   TextLines lines(path);

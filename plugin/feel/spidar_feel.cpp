@@ -56,8 +56,7 @@ void check_device(GObject* element) {
 /// `properties` are of the form NAME=VALUE, or preset=NAME; `element` is a spidarmotion in the
 /// state NULL. Opens no device, so an unplugged one is no error. Throws UsageError, which says what
 /// is wrong and what would be right, for an unknown property, a value that the property does not
-/// accept, a name that no device has, and a profile that cannot be read or does not suit the
-/// device.
+/// accept, a name of no device, and a profile that cannot be read or does not suit the device.
 void check_properties(GstElement* element, const std::vector<std::string>& properties) {
   for (const std::string& property : properties) set_typed(element, property);
   check_device(G_OBJECT(element));

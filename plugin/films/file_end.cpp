@@ -273,7 +273,7 @@ FlacLength flac_length(FileBytes& file) {
   if (!info) return length;
   length.rate_Hz = info->rate_Hz;
   length.promised = info->samples;
-  // More than a frame of 65535 samples of 32 bits in eight channels is rare; what was appended is
+  // More than a frame of 65535 samples of 32 bits in eight channels is rare; appended data are
   // shorter.
   constexpr uint64_t kEnd = uint64_t{1} << 18U;
   const uint64_t from = file.size() > first + kEnd ? file.size() - kEnd : first;

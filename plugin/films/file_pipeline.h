@@ -39,7 +39,7 @@ class FilePipeline {
   /// for `longest_silence`, because some demuxers stop at damage without an error, or when
   /// `*stopped` has become true.
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
-  /// Calls `take` with the text of each error, in the thread that reports it. Call this before
+  /// Calls `take` with each error's text, in the thread that reports it. Call this before
   /// play_until().
   void hear_errors(std::function<void(const std::string&)> take);
   /// The state of a thread that waits for data, between two calls of check().

@@ -21,8 +21,7 @@ struct ListedFilm {
 /// end as those of films do (".mkv", ignoring case), without hidden ones and hidden folders: the
 /// largest first, so that a long film does not come last and alone. Links to folders are not
 /// followed. `left_out` describes the other files of the folders, in one line; may be empty. Throws
-/// std::runtime_error if a folder has no film or cannot be read; unreadable folders below are left
-/// out.
+/// std::runtime_error if a folder has no film or cannot be read; folders below may be unreadable.
 std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out);
 
 }  // namespace spidar

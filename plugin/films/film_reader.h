@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Reads from a film, without decoding it, its fingerprint and the data to compare with its haptic
-/// track.
+/// Reads from a film, without decoding it, its fingerprint and data to compare with a haptic track.
 #pragma once
 
 #include <atomic>

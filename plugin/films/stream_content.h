@@ -52,8 +52,7 @@ StreamContent content_of(const GstCaps* caps);
 /// The content of the stream at a pad, by its caps and by the tags that have come to it.
 StreamContent content_of(GstPad* pad);
 
-/// Whether a stream consists of pictures in a format of still images, as a cover does: image/jpeg,
-/// image/png.
+/// Whether a stream consists of pictures in a format of still images, as a cover: image/jpeg.
 bool is_picture(const GstCaps* caps);
 
 /// Why no pictures, or no sound, come from the demuxers in `bin`, as the rest of a sentence; empty

@@ -13,8 +13,7 @@
 namespace spidar {
 
 /// The lines of a text file that a person or another program has written. Lines end in LF, CR or
-/// both. A byte order mark is left out, and UTF-16 with one becomes UTF-8; other bytes stay
-/// unchanged.
+/// both. A byte order mark is left out, and UTF-16 with one becomes UTF-8; other bytes stay.
 class TextLines {
  public:
   static constexpr const char* kOtherText =

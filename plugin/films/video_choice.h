@@ -23,10 +23,10 @@ class VideoChoice {
   VideoChoice(const VideoChoice&) = delete;
   VideoChoice& operator=(const VideoChoice&) = delete;
 
-  /// Call this before `decoder` starts. Decoded covers look like any picture, so their format is
-  /// recorded before.
+  /// Call this before `decoder` starts, to recognise covers, which look like any picture when
+  /// decoded.
   void watch(GstElement* decoder);
-  /// Call this once all streams of `decoder` are known; null when none has pictures. Owned by the
+  /// Call this once all streams of `decoder` are known; null without pictures. Owned by the
   /// decoder.
   GstPad* choose(GstElement* decoder);
 

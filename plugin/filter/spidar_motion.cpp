@@ -265,8 +265,8 @@ static void gst_spidar_motion_finalize(GObject* object) {
 
 static void gst_spidar_motion_init(GstSpidarMotionFilter* self) {
   self->state = new MotionState(GST_ELEMENT(self));
-  // GstVideoFilter would drop late frames before they are analysed; here the application decides
-  // that with `qos`.
+  // GstVideoFilter would drop late frames before the analysis; here the application decides with
+  // `qos`.
   gst_base_transform_set_passthrough(GST_BASE_TRANSFORM(self), TRUE);
   gst_base_transform_set_qos_enabled(GST_BASE_TRANSFORM(self), FALSE);
 }

@@ -31,8 +31,7 @@ inline Orientation turn_of(GstVideoOrientationMethod method) {
 }
 
 /// The orientation in which the frames of a stream are shown. Follows the tag `image-orientation`
-/// by the rules of videoflip: the tag of the stream counts, and that of the whole film where the
-/// stream has none.
+/// by the rules of videoflip: the tag of the stream counts before that of the whole film.
 class StreamOrientation {
  public:
   /// Begins another stream, whose tags are not known yet.

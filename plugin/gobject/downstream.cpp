@@ -9,8 +9,8 @@ class Search {
  public:
   explicit Search(const std::function<bool(GstElement*)>& wanted) : wanted_(wanted) {}
 
-  /// Whether the wanted element can be reached from `from`: downstream from a source pad, upstream
-  /// from a sink pad.
+  /// Whether `from` leads to the wanted element: downstream from a source pad, upstream from a sink
+  /// pad.
   bool reaches(GstPad* from) {
     Ref<GstPad> own_peer(--pads_left_ > 0 ? gst_pad_get_peer(from) : nullptr);
     if (!own_peer) return false;

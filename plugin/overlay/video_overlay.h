@@ -30,8 +30,8 @@ class ForceCurve {
     while (points_.front().time_ns < time_ns - kLength_ns) points_.pop_front();
   }
 
-  /// The axis from 0 to a round number that no force of the stream has exceeded, so that heights
-  /// can be compared.
+  /// The axis from 0 to a round number that no force of the stream has exceeded, for comparable
+  /// heights.
   PlotAxis axis() const { return make_axis(0, round_top(std::max(largest_N_, kMinTop_N)), 1); }
 
   /// Returns the curve, oldest first, as fractions: x from 0, kLength_ns ago, to 1, the newest

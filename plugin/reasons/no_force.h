@@ -63,7 +63,7 @@ std::optional<NoForceReason> no_force_reason(std::string_view nick) noexcept;
 /// The reason in the video, for one frame that was analysed for `motion`, with the rendered wrench.
 NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
 
-/// The reason in a haptic track, where its largest force is `wrench`. Without a device, `loop` is
+/// The reason in a haptic track with the largest force `wrench`. Without a device, `loop` is
 /// nothing.
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
 

@@ -296,8 +296,7 @@ constexpr const char* kPlayed =
     "audio/mpeg,mpegversion=(int){2,4}; audio/mpeg,mpegversion=(int)1,layer=(int)3; audio/x-opus; "
     "audio/x-vorbis";
 constexpr const char* kPlayedInWebm = "video/x-vp8; video/x-vp9,profile=(string)0";
-/// Safari decodes AV1 where the device does (iPhone 15 Pro, M3 and later), VP8 and VP9 in WebM
-/// only.
+/// Safari decodes AV1 where the device does (iPhone 15 Pro, M3, later), VP8 and VP9 in WebM only.
 constexpr const char* kMostlyPlayed = "video/x-av1; video/x-vp8; video/x-vp9,profile=(string)0";
 
 constexpr size_t kHead_bytes = 64;

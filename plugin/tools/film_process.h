@@ -15,8 +15,7 @@ namespace spidar::tools {
 struct FilmJob {
   std::string film;
   std::string track;
-  /// The properties for the recording of the track; `feel` has the rules themselves, not the name
-  /// of their file.
+  /// The properties for the recording of the track; `feel` has rules, not their file.
   RecordProperties properties;
   bool is_summarised = false;  ///< whether the result has a summary
 };

@@ -41,8 +41,7 @@ std::unique_ptr<FILE, int (*)(FILE*)> nameless_file(const std::string& text = ""
 /// Returns gnuplot's status, as waitpid() reports it. gnuplot gets no file names, because it runs a
 /// name that begins with | or < as a command.
 int run(int in, int out, int errors) {
-  // Without the settings of the user's own ~/.gnuplot. The signals that this program blocks are to
-  // end gnuplot.
+  // The user's ~/.gnuplot does not apply. The signals that this program blocks must end gnuplot.
   const pid_t process = start_child(
       taken(g_find_program_in_path("gnuplot")), {"gnuplot", "--default-settings"},
       {{in, STDIN_FILENO}, {out, STDOUT_FILENO}, {errors, STDERR_FILENO}}, POSIX_SPAWN_SETSIGMASK);

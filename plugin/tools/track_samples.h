@@ -33,8 +33,7 @@ class SampleFile {
 
   size_t count() const { return count_; }
   const std::string& path() const { return part_.path(); }
-  /// All samples, times `gain`. Throws std::runtime_error when they cannot be read. Call flush()
-  /// before.
+  /// All samples, times `gain`. Throws std::runtime_error on a read error. Call flush() before.
   SampleSource samples(double gain = 1) const;
 
  private:

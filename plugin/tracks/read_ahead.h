@@ -53,7 +53,7 @@ class ReadAhead {
     kLate  ///< the block has not been read yet
   };
 
-  /// The film shows everything `later_ns` later than the file says. Call this before the first
+  /// The film shows everything `later_ns` later than the file says. To call before the first
   /// take().
   void set_later(int64_t later_ns);
   /// Seeks: the next blocks are those that end after `time_ns`.

@@ -48,8 +48,7 @@ std::string joined(const std::vector<std::string>& parts, const char* between) {
   return text;
 }
 
-/// Opens the track, and compares it with the film. Null without a track, or with an error in
-/// `loaded`.
+/// Opens the track, and compares it with the film. Null without a track, or on an error.
 std::unique_ptr<OpenTrack> load_track(const std::string& wanted, const std::string& film,
                                       const std::atomic<bool>* stopped, LoadedTrack& loaded) {
   loaded.path = wanted == "auto" ? find_sidecar(film) : wanted;

@@ -18,8 +18,7 @@ struct Notes {
   FilmFingerprint film;  ///< the source of the track; empty: unknown
   /// The properties of spidarmotion for the recording, in one line; empty for the defaults.
   std::optional<std::string> settings;
-  /// The original format of a converted track, whose length may differ from the film's; empty:
-  /// none.
+  /// The original format of a converted track, whose length may differ from the film; empty: none.
   std::string origin = {};
 };
 

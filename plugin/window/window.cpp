@@ -51,8 +51,7 @@ std::string program() {
   return is_built_here ? beside.string() : installed(SPIDAR_WINDOW_PATH).string();
 }
 
-/// The program spidar-window as a child of this process. One thread, not necessarily the same for
-/// all functions.
+/// The program spidar-window as a child of this process. One thread at a time.
 class Process {
  public:
   Process() = default;

@@ -34,7 +34,7 @@ struct Result {
   Status status = Status::kContradiction;
   Settings estimated;  ///< the parameters that were estimated in addition to the offsets
 
-  /// Length at zero count minus length at the centre (StringDrive::home_offset_m) for the exits
+  /// Length at zero count minus that at the centre (StringDrive::home_offset_m), for the exits
   /// below.
   StringVector home_offset_m = StringVector::Zero();
   double scale = 1;  ///< factor on every metres_per_count
@@ -63,8 +63,7 @@ inline constexpr int kMinSamples = 20;
 /// Calibrates from a grip that is moved and turned about. A sample has eight lengths and its pose
 /// six unknowns, which leaves two equations for the parameters that all samples share. The method
 /// is bundle adjustment of poses and shared parameters, robust (Huber) on the samples. The first
-/// sample must be within some 2 cm and 20 degrees of the centre; the counters may have been cleared
-/// anywhere.
+/// sample must be within some 2 cm and 20 degrees of the centre; the counters may start anywhere.
 ///
 /// Throws std::invalid_argument when the profile has fewer than seven strings, when a count is not
 /// finite, when there are fewer than kMinSamples samples, or when the columns are not as many as

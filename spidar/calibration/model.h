@@ -66,12 +66,10 @@ struct Bundle {
 void adjust(const Model& model, const std::vector<StringVector>& paid_out_m, double sigma_m,
             int max_iterations, Bundle& bundle);
 
-/// √5.99: 5 % of good samples exceed this norm, whose square / σ² is χ² with two degrees of
-/// freedom.
+/// √5.99: 5 % of good samples exceed this norm, whose square / σ² is χ² of order two.
 inline constexpr double kHuber = 2.448;
 
-/// Returns a starting bundle, which assumes that the first sample is at the centre and follows the
-/// grip from there.
+/// Returns a starting bundle, which follows the grip from a first sample at the centre.
 Bundle from_the_centre(const Model& model, const std::vector<StringVector>& paid_out_m);
 
 }  // namespace spidar::calibration

@@ -43,8 +43,7 @@ bool UsbSearch::is_named(const Candidate& candidate) const {
   return !id_.empty() && (candidate.device.path == id_ || candidate.device.serial == id_);
 }
 
-/// Returns devices, at least one: those with the path or serial number in the id or, without an id,
-/// all.
+/// Returns devices, at least one: those with the id's path or serial number or, without an id, all.
 std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   std::vector<Candidate> found = plugged_in();
   if (!found.empty() && is_named(found.front())) {

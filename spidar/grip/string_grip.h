@@ -94,8 +94,7 @@ class GripWatch {
 /// the motors, leaves out a string that is slack or broken, and notices dead encoders.
 class StringGrip final : public Grip {
  public:
-  /// `device` outlives the grip. Throws std::invalid_argument for a profile of fewer than 6
-  /// strings.
+  /// `device` outlives the grip. Throws std::invalid_argument for fewer than six strings.
   StringGrip(const Profile& profile, StringDevice& device);
   StringGrip(const Profile& profile, std::unique_ptr<StringDevice> device);
 

@@ -62,8 +62,7 @@ static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// kSilence_ms, and otherwise at the host's next turn.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
-/// The duration of an input device's effects, which must not outlast a program that hangs or is
-/// stopped.
+/// The duration of an input device's effects, which must not outlast a hanging or stopped program.
 constexpr int kEffect_ms = 150;
 constexpr int kSilence_ms = 50;
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

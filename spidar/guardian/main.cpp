@@ -204,8 +204,7 @@ bool say(GuardianWord word) {
 }
 
 /// Sends the zeros whenever the host is silent while its motors pull. Returns true when the host
-/// has ended, and false when it has dismissed its guardian. `pulled`: whether the motors ever
-/// pulled.
+/// has ended, and false when it has dismissed its guardian. `pulled`: whether motors pulled.
 bool watch(int host, LastWill& will, bool& pulled) {
   bool pulling = false, zeroed = false, failed = false;
   spidar::SleepInhibitor inhibitor;

@@ -28,8 +28,8 @@ struct DeviceKind {
   UsbId usb = {};          ///< vendor 0 for a device that is not on USB
   /// Profile::board of fitting profiles; empty for a device without strings.
   const char* profile_board = "";
-  /// The profile for the simulation if the user names none; without strings, also for the real
-  /// device.
+  /// The profile for the simulation if the user names none; without strings, for the real device,
+  /// too.
   const char* profile = kDefaultProfile;
   boards::Traits traits = {};  ///< of a board with strings; profiles must fit them
   /// What messages call a device without strings that device=auto has chosen: "a Novint Falcon".

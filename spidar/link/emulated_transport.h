@@ -43,8 +43,7 @@ class Board {
   virtual ~Board() = default;
   /// Takes bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
-  /// Writes the next due reply and returns its length; 0 when there is none or `bytes` is too
-  /// small.
+  /// Writes the next due reply and returns its length; 0 if none or if `bytes` is too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
   /// Starts with the given memory and keeps its state there; the memory must outlive the board.
   /// Without a memory, the board starts as one that was used before.

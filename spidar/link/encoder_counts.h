@@ -45,8 +45,7 @@ class CountUnwrapper {
   /// nothing when a counter has jumped, or when a loss of power seems to have reset the counters:
   /// they are nearer to zero than to their previous values, which were not near zero themselves. A
   /// grip that a hand moved towards the counters' zero looks the same. Mistaking this for a reset
-  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts the new
-  /// values.
+  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts them.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const int32_t moved = distance(raw, last_.raw, channels);
     const bool anew = moved > kStill && distance(last_.raw, {}, channels) > kStill &&

@@ -106,8 +106,7 @@ struct Profile {
   StringVector min_tension_N() const { return per_string<&StringDrive::min_tension_N>(); }
   StringVector max_tension_N() const { return per_string<&StringDrive::max_tension_N>(); }
   /// The largest residual (root mean square) of a correct pose, for PoseSolver: one step of the
-  /// coarsest encoder. Counts are off by half a step at most; the rest allows for errors of the
-  /// geometry.
+  /// coarsest encoder. Counts are off by half a step at most; the rest is for the geometry.
   double max_pose_residual_m() const {
     return per_string<&StringDrive::metres_per_count>().maxCoeff();
   }
@@ -121,8 +120,7 @@ struct Profile {
   }
 };
 
-/// Loads a name of list_profiles(), or a path, which has a '/' or ends in .toml. Throws
-/// ProfileError.
+/// Loads a name of list_profiles(), or a path, with a '/' or ending in .toml. Throws ProfileError.
 Profile load_profile(const std::string& name_or_path);
 
 /// Returns the profiles that load_profile() finds by name: those in $SPIDAR_PROFILE_PATH

@@ -153,8 +153,7 @@ constexpr double kMaxDac_V = 60;
 constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
-// The fewest steps of the D/A converter in the range of a string; shipped profiles have 280 or
-// more.
+// The fewest steps of the D/A converter in the range of a string. Shipped profiles: 280 or more.
 constexpr double kMinSteps = 16;
 // No string of a hand-held device pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
@@ -188,8 +187,7 @@ Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
   return point_m;
 }
 
-/// The strings must hold the grip: pull it in every direction, and lengthen or shorten with each of
-/// its six motions.
+/// The strings must hold the grip: pull it in every direction, and change with each of six motions.
 void check_hold(const TomlField& in, const StringGeometry& geometry) {
   const TomlField exits = in["exit"];
   for (size_t i = 0; i < exits.size(); ++i) {

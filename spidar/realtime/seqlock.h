@@ -13,8 +13,8 @@ namespace spidar {
 
 /// A value that one thread writes and others read without locks. The writer never waits; several
 /// writers need a lock of their own. The words are atomics, so that there is no data race in the
-/// sense of the language (Boehm, "Can seqlocks get along with programming language memory models?",
-/// 2012).
+/// sense of the language (H. Boehm, Can seqlocks get along with programming language memory
+/// models?, 2012).
 template <typename T>
 class Seqlock {
   // Eigen's fixed-size types are plain memory but not formally trivially copyable.

@@ -47,8 +47,8 @@ inline bool is_standard_output(int descriptor, int standard) noexcept {
 }
 
 /// Opens the target of a link: a device or pipe, as /dev/stdout may be; or the file of the standard
-/// output or the standard error, which is continued at its position. Returns −1 with ELOOP in errno
-/// for other files.
+/// output or the standard error, which is continued at its position. Returns −1 and ELOOP for other
+/// files.
 inline int open_linked_output(const char* path) noexcept {
   const int followed = open(path, O_WRONLY | O_CLOEXEC | O_NONBLOCK);
   if (followed < 0) return -1;
@@ -134,8 +134,7 @@ inline int open_own_output(const char* path, std::string_view begin, std::string
 
 /// While this object lives, SIGPIPE does not end the process when the calling thread writes to a
 /// closed pipe; the write fails with EPIPE. A library must not change the application's signal
-/// handlers, so the signal is blocked for this thread only, and a pending one is consumed at the
-/// end.
+/// handlers, so the signal is blocked for this thread only, and consumed at the end.
 class SigpipeBlock {
  public:
   SigpipeBlock() noexcept {

@@ -162,8 +162,7 @@ class DelayRun {
     return record_.acknowledged && (fault == PoseFault::kNoReading || fault == PoseFault::kNotYet);
   }
 
-  /// Returns false, to end the test, if the pose is lost, a string is faulty or the grip too far
-  /// away.
+  /// Returns false to end the test: the pose is lost, a string is faulty or the grip too far away.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
     if (now.last.pose_fault == PoseFault::kFrozen) {

@@ -18,8 +18,8 @@
 namespace spidar {
 
 /// The file with the profiles that were confirmed for boards:
-/// $XDG_CONFIG_HOME/gst-spidar/boards.toml, or ~/.config/gst-spidar/boards.toml. Empty when neither
-/// variable is set.
+/// $XDG_CONFIG_HOME/gst-spidar/boards.toml, or ~/.config/gst-spidar/boards.toml. Empty without
+/// both.
 std::filesystem::path remembered_profiles_file();
 
 /// The profile that store_profile() last stored for the board with this USB ID and serial number;

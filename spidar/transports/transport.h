@@ -60,12 +60,11 @@ class Transport {
     return result;
   }
 
-  /// Sends a vendor request without data; returns kRefused if there is no such pipe. Blocks as
-  /// exchange() does.
+  /// Sends a vendor request without data; kRefused if there is no such pipe. Blocks as exchange()
+  /// does.
   virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
-  /// Call this after a fault: clears stalls and discards pending replies. May block some
-  /// milliseconds.
+  /// Call this after a fault: clears stalls, discards pending replies, may block some ms.
   virtual void recover() noexcept = 0;
 
   /// Where the open device was found, for the beginning of a description: "at 1-2: "; empty when

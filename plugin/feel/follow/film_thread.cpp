@@ -44,7 +44,7 @@ void give_base_time(const GValue* element, gpointer base) {
 }
 
 /// A film that is felt and not shown, at the position at which another program plays it: its haptic
-/// track, or its analysis. One thread, which files, networks and devices may delay. Times are of
+/// track, or its analysis. One thread, which files and devices may delay. Times are of
 /// CLOCK_MONOTONIC.
 class FollowedFilm {
  public:

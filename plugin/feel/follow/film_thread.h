@@ -47,8 +47,7 @@ class FilmThread {
   FilmThread(const FilmThread&) = delete;
   FilmThread& operator=(const FilmThread&) = delete;
 
-  /// Sets the goal. Call this every few tens of milliseconds: without it, the force rests after 0.3
-  /// s.
+  /// Sets the goal. Call this every few tens of milliseconds: else the force rests after 0.3 s.
   void aim(FilmGoal goal);
   /// Returns the requests since the last call.
   FilmWish take_wish();

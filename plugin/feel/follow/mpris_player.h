@@ -36,8 +36,7 @@ void list_players(GDBusConnection* bus, const std::string& name, GCancellable* e
                   std::function<void(std::optional<std::vector<std::string>>)> take);
 
 /// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec). No
-/// call waits, and each has a deadline. Callbacks run in the main loop; times are of
-/// CLOCK_MONOTONIC.
+/// call waits, and each has a deadline. Callbacks run in the main loop; times are monotonic.
 class Player {
  public:
   struct Told {

@@ -18,8 +18,7 @@ class PositionFilter {
   static constexpr size_t kKept = 8;
   /// No player reported as late as this in our measurements: a larger difference is a jump.
   static constexpr int64_t kMaxLate_ns = 150'000'000;
-  /// So many positions in a row, each before the last, are no person's jumps: VLC reports 3 a
-  /// second.
+  /// So many positions in a row, each before the last, are no person's jumps: VLC reports 3/s.
   static constexpr int kBackward = 3;
 
   /// Tells that the player plays at `rate` from this position on; earlier reports no longer count.

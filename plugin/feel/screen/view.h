@@ -28,8 +28,7 @@ class View {
 };
 
 /// `what` is the title of a window or a part of the title, "ask" for a click on a window, or empty
-/// for the whole screen. Waits for that click. Throws std::runtime_error with what is wrong and
-/// what helps.
+/// for the whole screen. Waits for that click. Throws std::runtime_error with advice.
 std::unique_ptr<View> view_of_x11(const std::string& what);
 
 /// A program of X11 or Wayland that the user chooses in a dialog of the desktop: again if

@@ -34,8 +34,8 @@ struct _GstSpidarFeelBin {
   // Between `before` and `after`: the middle, that spidarmotion, or a bin that gives it small
   // copies of frames in GPU memory.
   GstElement* in_place;
-  // Of the streaming thread: how pictures are to be turned before they are shown, and whether
-  // nothing is known to do so.
+  // For the streaming thread: how pictures must be turned for display, and whether no element does
+  // so.
   spidar::StreamOrientation orientation;
   bool lies;
 };
@@ -113,8 +113,7 @@ static void show_without_device(GstSpidarFeelBin* self, GstElement* motion, GstM
 }
 
 /// Passes a message on, so that the video continues: an error of the device becomes a warning in
-/// the player. Players may hide warnings and information, so they are also printed on standard
-/// error.
+/// the player. Players may hide messages, so they are also printed on standard error.
 static void pass_on(GstSpidarFeelBin* self, GstMessage* message) {
   if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ELEMENT) {
     gst_element_post_message(GST_ELEMENT(self), gst_message_ref(message));
@@ -150,8 +149,7 @@ static Ref<GstElement> open_motion(GstSpidarFeelBin* self) {
   set_properties(motion.get(), self->properties);
   const Ref<GstBus> bus(gst_bus_new());
   gst_element_set_bus(motion.get(), bus.get());
-  // Without a device, no spidarmotion may measure the frames, whatever the user requests while it
-  // plays.
+  // Without a device, no spidarmotion may measure the frames, whatever the user requests later.
   gint while_playing = 0;
   g_object_get(motion.get(), "on-device-error", &while_playing, nullptr);
   gst_util_set_object_arg(G_OBJECT(motion.get()), "on-device-error", "error");
@@ -190,8 +188,8 @@ static GstElement* front(GstSpidarFeelBin* self) {
 static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
   GstElement* const out = self->in_place;
   gst_element_unlink_many(front(self), out, self->after, nullptr);
-  // In READY, unlike NULL, a spidarmotion keeps its device, at rest, for the next frames that it
-  // can measure.
+  // In READY, unlike NULL, a spidarmotion keeps its device, at rest, for frames that it can
+  // measure.
   gst_element_set_state(out, GST_STATE_READY);
   gst_bin_remove(GST_BIN(self), out);
   gst_bin_add(GST_BIN(self), in);

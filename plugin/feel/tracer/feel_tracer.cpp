@@ -74,8 +74,7 @@ static void tell_without_video(GstElement* element) {
       "spidarsink\n");
 }
 
-/// GStreamer calls this for every element, in any thread: it returns at once for anything but
-/// players.
+/// GStreamer calls this for every element, in any thread: it returns at once except for players.
 static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED && is_playbin(element)) set_filter(element);

@@ -7,9 +7,8 @@
 
 namespace spidar {
 
-/// The GPU memory from which the installed elements make small copies: of GL, and of VA-API. A
-/// floating set of caps with any size and format, which the caller owns; empty without such
-/// elements.
+/// The GPU memory from which the installed elements make small copies: of GL, and of VA-API.
+/// Floating caps with any size and format, which the caller owns; empty without such elements.
 GstCaps* gpu_caps();
 
 /// Whether frames of these caps are outside of the processor's memory.

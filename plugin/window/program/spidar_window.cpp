@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The debug window of one element: spidarmotion starts this program with a socket as standard
-// input.
+// The debug window of one element, which starts this program with a socket as standard input.
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>

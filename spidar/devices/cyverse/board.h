@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The two CyVerse boards, SH4 and Simple: eight D/A converters from zero volts, eight counters, a
-/// switch.
+/// The two CyVerse boards, SH4 and Simple: eight unipolar D/A converters, eight counters, a switch.
 #pragma once
 
 #include <array>

@@ -47,8 +47,7 @@ class ForceFeedback final : public ForceBoard {
   }
   /// The thread that makes the updates recovers from faults.
   void recover() noexcept override {}
-  /// While the device is to be reopened, the centring spring stays off for the hand that still
-  /// holds the stick.
+  /// Before a reopening, the centring spring stays off for the hand that still holds the stick.
   void close() noexcept override { effects_->close(reopening_); }
   std::vector<LastWill> last_wills() const override { return effects_->last_wills(); }
   /// Also names what the device lacks.

@@ -54,7 +54,7 @@ class SimulatedDevice final : public StringDevice {
   /// there, or where the profile's home_offset_m puts them. Throws DeviceError if a fault is set.
   void open() override;
 
-  /// Returns kGone when the device is not open. Voltages of the wrong sign or not finite count as
+  /// Returns kGone when the device is not open. Voltages of the wrong sign, or not finite, are
   /// zero.
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override;
 

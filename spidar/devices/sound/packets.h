@@ -27,8 +27,7 @@ constexpr int kBlockFrames = kRate_Hz / 1000 * kBlock_ms;
 constexpr int kSilence_ms = 50;
 /// The force at full level, as for sticks: amplifiers do not report how strong they are.
 constexpr double kFullForce_N = kDefaultForce_N;
-/// Frequencies that bass shakers and voice coils can play, and that the body feels as one
-/// vibration.
+/// Frequencies that bass shakers and voice coils play, and that the body feels as one vibration.
 constexpr int kLowest_Hz = 20, kHighest_Hz = 120;
 
 struct Settings {

@@ -8,8 +8,7 @@
 
 namespace spidar {
 
-/// snd_lib_error_set_local(): ALSA's header lacks extern "C", so C++ does not find it in the
-/// library.
+/// snd_lib_error_set_local(), for which ALSA's header lacks extern "C".
 extern "C" snd_local_error_handler_t set_alsa_error_handler(
     snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
 

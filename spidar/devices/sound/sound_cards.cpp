@@ -14,8 +14,8 @@
 namespace spidar {
 namespace {
 
-/// PCMs of ALSA's configuration and its plugins that play on another device, which a server or a
-/// setting chooses.
+/// PCMs of ALSA's configuration and plugins that play on a device which a server or setting
+/// chooses.
 constexpr const char* kElsewhere[] = {"default",   "sysdefault", "pulse", "pipewire", "jack",
                                       "oss",       "null",       "dmix",  "lavrate",  "samplerate",
                                       "speexrate", "speex",      "upmix", "vdownmix", "usbstream"};
