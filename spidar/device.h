@@ -27,7 +27,7 @@ enum class LinkFault : uint8_t {
   kWrongEcho,    ///< the board echoes D/A values that were not sent
   kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended, for example because it was killed
-  kStoodStill,   ///< this process was suspended, so that the guardian set the motors to zero
+  kSuspended,    ///< this process was suspended, so that the guardian set the motors to zero
   kRefused,      ///< the kernel's driver refuses the request
 };
 constexpr size_t kLinkFaults = 13;
@@ -35,7 +35,7 @@ constexpr size_t kLinkFaults = 13;
 /// Returns whether the device has to be opened again. Other faults may pass.
 constexpr bool is_lost(LinkFault fault) noexcept {
   return fault == LinkFault::kGone || fault == LinkFault::kUnguarded ||
-         fault == LinkFault::kStoodStill;
+         fault == LinkFault::kSuspended;
 }
 
 /// Returns "none", "timeout", "stall", "short packet", …
@@ -63,7 +63,7 @@ constexpr const char* to_string(LinkFault fault) noexcept {
       return "counter jump";
     case LinkFault::kUnguarded:
       return "guardian ended";
-    case LinkFault::kStoodStill:
+    case LinkFault::kSuspended:
       return "player stood still";
     case LinkFault::kRefused:
       return "refused by the driver";

@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// Stores, for each string, the lengths of all strings at the last change of its own length.
-class FrozenCounts {
+class StillStrings {
  public:
   void update(const StringVector& lengths_m, int count) noexcept {
     still_ = 0;
@@ -148,7 +148,7 @@ class PoseSolver {
   Pose last_;
   Twist motion_ = Twist::Zero();  ///< from the pose before the last to the last
   bool tracking_ = false;         ///< whether the last call found a pose
-  FrozenCounts counts_;
+  StillStrings counts_;
   int faulty_string_ = -1;
   int fitting_ticks_ = 0;      ///< how long the length of faulty_string_ has fitted again
   double fitting_from_m_ = 0;  ///< its length when that began

@@ -44,15 +44,15 @@ Eigen::Vector3d half_frame_m(const StringGeometry& geometry);
 
 /// How far the grip may move from the workspace's centre to each side: half of half_frame_m(),
 /// where the strings can still hold it (docs/strings.md).
-inline Eigen::Vector3d half_room_m(const StringGeometry& geometry) {
+inline Eigen::Vector3d half_workspace_m(const StringGeometry& geometry) {
   constexpr double kReach = 0.5;
   return kReach * half_frame_m(geometry);
 }
 
-/// The geometry, stretched until half_room_m() is `half_m` in the axes in which `half_m` is above
-/// 0: for a device without strings, which has its own workspace.
-inline StringGeometry with_room(StringGeometry geometry, const std::array<double, 3>& half_m) {
-  const Eigen::Vector3d before_m = half_room_m(geometry);
+/// The geometry, stretched until half_workspace_m() is `half_m` in the axes in which `half_m` is
+/// above 0: for a device without strings, which has its own workspace.
+inline StringGeometry with_workspace(StringGeometry geometry, const std::array<double, 3>& half_m) {
+  const Eigen::Vector3d before_m = half_workspace_m(geometry);
   for (int axis = 0; axis < 3; ++axis) {
     const double wanted_m = half_m[static_cast<size_t>(axis)];
     if (!(wanted_m > 0 && before_m[axis] > 0)) continue;
@@ -63,7 +63,7 @@ inline StringGeometry with_room(StringGeometry geometry, const std::array<double
 
 /// Half the width and height of a picture, whose middle is the workspace's centre.
 inline Eigen::Vector2d half_picture_m(const StringGeometry& geometry) {
-  return half_room_m(geometry).head<2>();
+  return half_workspace_m(geometry).head<2>();
 }
 
 }  // namespace spidar

@@ -19,7 +19,7 @@ struct DeviceView {
   bool has_strings = true;       ///< otherwise only the size of the profile's frame matters
   TickRecord last;               ///< the newest tick
   uint64_t overruns = 0;         ///< see LoopCounters
-  std::vector<ForceTick> ticks;  ///< since the last look_at_device(), oldest first
+  std::vector<ForceTick> ticks;  ///< since the last read_device(), oldest first
   StringGeometry geometry;
   StringVector min_tension_N = StringVector::Zero();
   StringVector max_tension_N = StringVector::Zero();

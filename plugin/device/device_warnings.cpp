@@ -35,7 +35,7 @@ std::string why_lost(const HapticSession& session) {
   switch (fault) {
     case LinkFault::kNone:
       return "The haptic device does not answer.";
-    case LinkFault::kStoodStill:
+    case LinkFault::kSuspended:
       return "The haptic device was set to rest, because the player stood still.";
     case LinkFault::kUnguarded:
       return "The haptic device was set to rest, because its guardian has ended.";

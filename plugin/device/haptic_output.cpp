@@ -217,7 +217,7 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
     said_too_much_ = false;
     doubt_ = doubt;
     profile_ = profile;
-    profile_.geometry = with_room(profile.geometry, grip.abilities().half_room_m);
+    profile_.geometry = with_workspace(profile.geometry, grip.abilities().half_workspace_m);
     reservation_ = std::move(reservation);
     session_ = std::move(session);
     simulated_ = simulated;
@@ -265,7 +265,7 @@ std::optional<LoopSnapshot> HapticOutput::snapshot() const {
   return session_->loop().snapshot();
 }
 
-bool HapticOutput::look_at_device(DeviceView& view) {
+bool HapticOutput::read_device(DeviceView& view) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!session_) return false;
   view.name = session_->grip().name();

@@ -65,7 +65,7 @@ class HapticOutput {
   const Profile& profile() const { return profile_; }
   /// Returns nothing while the device is closed.
   std::optional<LoopSnapshot> snapshot() const;
-  bool look_at_device(DeviceView& view);
+  bool read_device(DeviceView& view);
   /// Leads the hand of the device "sim" to a position, see SimulatedDevice::lead_hand(). Returns
   /// false for other devices, and while closed.
   bool lead_hand(const std::optional<Eigen::Vector3d>& to_m);

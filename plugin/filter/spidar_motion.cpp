@@ -201,7 +201,7 @@ static constexpr spidar::PropertyEffect<GstSpidarMotionFilter> kEffects[] = {
     {"pointer",
      [](auto* self, auto*) {
        self->state->choice.mouse().reset();
-       self->state->display.hand().let_go();
+       self->state->display.hand().release();
      }},
     {"touch",
      [](auto* self, auto* value) {

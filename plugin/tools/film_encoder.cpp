@@ -250,12 +250,12 @@ class KeptStreams {
 
 /// Discards the standard error while GStreamer requests the last pictures of OpenH264, which then
 /// prints "Error: cmInitParaError" although nothing is wrong. Outlives the pipeline.
-class QuietEnd {
+class MutedStderr {
  public:
-  QuietEnd() = default;
-  ~QuietEnd() { speak(); }
-  QuietEnd(const QuietEnd&) = delete;
-  QuietEnd& operator=(const QuietEnd&) = delete;
+  MutedStderr() = default;
+  ~MutedStderr() { unmute(); }
+  MutedStderr(const MutedStderr&) = delete;
+  MutedStderr& operator=(const MutedStderr&) = delete;
 
   /// `pipeline` has the elements of to_file(), and has not started.
   void begin(GstElement* pipeline) {
@@ -269,9 +269,9 @@ class QuietEnd {
 
  private:
   static GstPadProbeReturn pass(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
-    auto& self = *static_cast<QuietEnd*>(user);
+    auto& self = *static_cast<MutedStderr*>(user);
     if (GST_EVENT_TYPE(GST_PAD_PROBE_INFO_EVENT(info)) != GST_EVENT_EOS) return GST_PAD_PROBE_OK;
-    self.speak();
+    self.unmute();
     if (GST_PAD_IS_SRC(pad)) return GST_PAD_PROBE_OK;
     const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return GST_PAD_PROBE_OK;
@@ -280,7 +280,7 @@ class QuietEnd {
     close(nowhere);
     return GST_PAD_PROBE_OK;
   }
-  void speak() {
+  void unmute() {
     if (errors_ < 0) return;
     dup2(errors_, STDERR_FILENO);
     close(std::exchange(errors_, -1));
@@ -368,7 +368,7 @@ EncodedFilm encode_film(const std::string& film, const std::string& elements, co
   FilmProgress progress(tell);
   FilmWatch watch;
   KeptStreams others;
-  QuietEnd quiet;
+  MutedStderr muted;
   GstClockTime last_frame = GST_CLOCK_TIME_NONE;  // must outlive the pipeline
   const FilePipeline file(
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
@@ -379,7 +379,7 @@ EncodedFilm encode_film(const std::string& film, const std::string& elements, co
   set_properties(pictures, properties);
   watch.begin(file.pipeline(), film);
   others.begin(file.pipeline());
-  quiet.begin(file.pipeline());
+  muted.begin(file.pipeline());
   progress.watch(pictures);
   const Ref<GstPad> frames(gst_element_get_static_pad(pictures, "src"));
   gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, order_frame, &last_frame, nullptr);

@@ -94,7 +94,7 @@ struct DeviceRange {
       largest_torque_Nm = std::floor(1000 * most_Nm) / 1000;
     }
     const Eigen::Vector3d half_m =
-        spidar::half_room_m(spidar::with_room(profile.geometry, can.half_room_m));
+        spidar::half_workspace_m(spidar::with_workspace(profile.geometry, can.half_workspace_m));
     for (int axis = 0; axis < 3; ++axis) {
       if (can.position[static_cast<size_t>(axis)]) workspace_m[axis] = 2 * half_m[axis];
     }

@@ -62,18 +62,18 @@ std::vector<UsbSearch::Candidate> UsbSearch::candidates() const {
   return found;
 }
 
-bool UsbSearch::is_clear(const std::vector<Candidate>& found) const {
+bool UsbSearch::is_unambiguous(const std::vector<Candidate>& found) const {
   return found.size() == 1 && (is_named(found.front()) || id_.empty());
 }
 
 /// Returns whether only the boards themselves can tell which one is meant.
-bool UsbSearch::is_to_ask(const std::vector<Candidate>& found) const {
+bool UsbSearch::must_query(const std::vector<Candidate>& found) const {
   return found.front().kind->usb.shared || rotary_of(id_) >= 0;
 }
 
 void UsbSearch::require_one() const {
   const std::vector<Candidate> found = candidates();
-  if (!is_clear(found) && !is_to_ask(found)) open_matching(found, {}, {});
+  if (!is_unambiguous(found) && !must_query(found)) open_matching(found, {}, {});
 }
 
 void UsbSearch::open(const std::function<int(const Candidate&)>& open,
@@ -81,7 +81,7 @@ void UsbSearch::open(const std::function<int(const Candidate&)>& open,
   if (first_.known()) return open_again(open);
   const std::vector<Candidate> found = candidates();
   Candidate opened = found.front();
-  if (is_clear(found)) {
+  if (is_unambiguous(found)) {
     first_rotary_ = open(opened);
   } else {
     opened = open_matching(found, open, close);
@@ -118,7 +118,7 @@ UsbSearch::Candidate UsbSearch::open_matching(const std::vector<Candidate>& foun
   std::string listed, errors;
   for (const Candidate& candidate : found) {
     listed += std::string(" ") + candidate.kind->device + ":" + candidate.device.path;
-    if (!is_to_ask(found)) continue;
+    if (!must_query(found)) continue;
     try {
       const int rotary = open(candidate);
       if (rotary == wanted) return candidate;

@@ -42,8 +42,8 @@ class UsbSearch {
 
  private:
   std::vector<Candidate> plugged_in() const;
-  bool is_clear(const std::vector<Candidate>& found) const;
-  bool is_to_ask(const std::vector<Candidate>& found) const;
+  bool is_unambiguous(const std::vector<Candidate>& found) const;
+  bool must_query(const std::vector<Candidate>& found) const;
   std::vector<Candidate> candidates() const;
   bool is_named(const Candidate& candidate) const;
   Candidate open_matching(const std::vector<Candidate>& found,

@@ -32,7 +32,7 @@ struct GripAbilities {
   int rate_Hz = 1000;                              ///< forces a second, at most
   int buttons = 0;                                 ///< at most 32
   /// How far the grip moves from its middle to each side; 0: as far as in the profile.
-  std::array<double, 3> half_room_m{};
+  std::array<double, 3> half_workspace_m{};
 
   /// Whether the grip can touch a picture, whose depth is rendered along the third axis.
   bool can_touch() const noexcept { return force[2] && position[2]; }

@@ -158,7 +158,7 @@ bool Guardian::greet(const LastWill& will, int patience_s) {
 }
 
 Guardian::~Guardian() {
-  if (socket_ >= 0 && getpid() == owner_) say(HostWord::kDismissed);
+  if (socket_ >= 0 && getpid() == owner_) send_heartbeat(HostHeartbeat::kDismissed);
   finish(End::kWait);
 }
 
@@ -166,8 +166,8 @@ void Guardian::carry_out() noexcept {
   finish(End::kLeave);
 }
 
-bool Guardian::say(HostWord word) noexcept {
-  const ssize_t sent = send(socket_, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
+bool Guardian::send_heartbeat(HostHeartbeat heartbeat) noexcept {
+  const ssize_t sent = send(socket_, &heartbeat, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
   // A full socket belongs to a guardian that sleeps; missing answers reveal that.
   return sent == 1 || errno == EAGAIN;
 }
@@ -177,23 +177,23 @@ bool Guardian::watch(bool pulling) noexcept {
   constexpr int64_t kMillisecond_ns = kSecond_ns / 1000, kBeat_ns = kBeat_ms * kMillisecond_ns;
   const int64_t now_ns = monotonic_now_ns();
   int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
-  stood_still_ |= pulling_ && passed_ns > kSilence_ms * kMillisecond_ns;
+  was_suspended_ |= pulling_ && passed_ns > kSilence_ms * kMillisecond_ns;
   // At rest nothing is at stake: whatever has suspended this process, as a virtual machine that
   // gets no processor, may have suspended the guardian as well, and a pause counts as a heartbeat.
   if (!pulling_) passed_ns = std::min(passed_ns, kBeat_ns);
   silent_ns_ += passed_ns;
-  GuardianWord answer{};
+  GuardianAnswer answer{};
   ssize_t got = 0;
   while ((got = recv(socket_, &answer, 1, MSG_DONTWAIT)) > 0) {
-    stood_still_ |= answer == GuardianWord::kZeroed;
+    was_suspended_ |= answer == GuardianAnswer::kZeroed;
     silent_ns_ = passed_ns;  // the answer came after the last call, at some time
   }
-  if (stood_still_ || got == 0 || errno != EAGAIN) return false;
+  if (was_suspended_ || got == 0 || errno != EAGAIN) return false;
   if (silent_ns_ > kAnswer_ms * kMillisecond_ns) return false;
   if (pulling == pulling_ && now_ns - said_ns_ < kBeat_ns) return true;
   pulling_ = pulling;
   said_ns_ = now_ns;
-  return say(pulling ? HostWord::kPulling : HostWord::kResting);
+  return send_heartbeat(pulling ? HostHeartbeat::kPulling : HostHeartbeat::kResting);
 }
 
 void Guardian::send_signal(int number) const noexcept {

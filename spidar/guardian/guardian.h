@@ -73,14 +73,14 @@ constexpr int kAnswer_ms = 80;
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
 /// kDismissed, which shows the host that its guardian is running.
-enum class HostWord : char {
+enum class HostHeartbeat : char {
   kPulling = 'p',    ///< the motors pull: the next message must follow soon
   kResting = 'r',    ///< the motors are at zero: the host may be silent
   kDismissed = 'q',  ///< the guardian must end without sending the packets
 };
 
 /// Answers of the guardian; the first one says that the guardian is ready.
-enum class GuardianWord : char {
+enum class GuardianAnswer : char {
   kWatching = 'w',
   /// The host sent no message in time, and the guardian has sent the zeros. The guardian repeats
   /// them every kSilence_ms, sooner when they have not arrived, until the host dismisses it,
@@ -112,11 +112,11 @@ class Guardian {
   /// Call this in every exchange. `pulling` must be true as long as the motors are not at zero,
   /// from before the first voltage to after the last. Returns false if the guardian no longer
   /// works, because it was killed or has been silent for kAnswer_ms, or if this process
-  /// stood_still(). The caller must then set the motors to zero and create another guardian.
+  /// was_suspended(). The caller must then set the motors to zero and create another guardian.
   bool watch(bool pulling) noexcept;
 
   /// Whether this process did not call watch() for kSilence_ms while the motors pulled.
-  bool stood_still() const noexcept { return stood_still_; }
+  bool was_suspended() const noexcept { return was_suspended_; }
 
   /// Makes the guardian set the motors to zero now, for the case that the board is released but the
   /// motors could not be set to zero. Returns after kEnd_s at the latest; the guardian goes on
@@ -132,7 +132,7 @@ class Guardian {
   bool start(const std::vector<std::string>& command, const LastWill& will, int patience_s);
   bool greet(const LastWill& will, int patience_s);
   bool connect_to(const std::string& path);
-  bool say(HostWord word) noexcept;
+  bool send_heartbeat(HostHeartbeat heartbeat) noexcept;
   void send_signal(int number) const noexcept;
   void finish(End end) noexcept;
 
@@ -140,7 +140,7 @@ class Guardian {
   pid_t process_ = -1;  ///< −1: the guardian is a service
   pid_t owner_ = -1;
   bool pulling_ = false;  ///< what the guardian knows
-  bool stood_still_ = false;
+  bool was_suspended_ = false;
   int64_t said_ns_ = 0;
   int64_t watched_ns_ = 0;
   int64_t silent_ns_ = 0;  ///< since the guardian last certainly worked

@@ -30,8 +30,8 @@
 
 namespace {
 
-using spidar::GuardianWord;
-using spidar::HostWord;
+using spidar::GuardianAnswer;
+using spidar::HostHeartbeat;
 using spidar::LastWill;
 
 constexpr int kRetry_ms = 10;
@@ -101,8 +101,8 @@ bool write_all(int file, const uint8_t* bytes, size_t length, bool (*ends)(int e
     if (more < 0 && ends(errno)) return true;
     if (more < 0 && !may_pass(errno)) return false;
     if (more > 0) sent += static_cast<size_t>(more);
-    pollfd room{file, POLLOUT, 0};
-    if (more <= 0 && poll(&room, 1, kTransfer_ms) == 0) return false;
+    pollfd writable{file, POLLOUT, 0};
+    if (more <= 0 && poll(&writable, 1, kTransfer_ms) == 0) return false;
   }
   return true;
 }
@@ -199,8 +199,8 @@ bool receive(LastWill& will, int& host) {
   return true;
 }
 
-bool say(GuardianWord word) {
-  return send(STDIN_FILENO, &word, 1, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
+bool answer_host(GuardianAnswer answer) {
+  return send(STDIN_FILENO, &answer, 1, MSG_DONTWAIT | MSG_NOSIGNAL) == 1;
 }
 
 /// Sends the zeros whenever the host is silent while its motors pull. Returns true when the host
@@ -222,14 +222,14 @@ bool watch(int host, LastWill& will, bool& pulled) {
       // A last message may be waiting: a host that dismissed its guardian may have ended since.
       return true;
     } else {
-      HostWord word{};
-      if (recv(STDIN_FILENO, &word, 1, 0) != 1) return true;
-      if (word == HostWord::kDismissed) return false;
-      pulling = word == HostWord::kPulling;
+      HostHeartbeat heartbeat{};
+      if (recv(STDIN_FILENO, &heartbeat, 1, 0) != 1) return true;
+      if (heartbeat == HostHeartbeat::kDismissed) return false;
+      pulling = heartbeat == HostHeartbeat::kPulling;
       pulled |= pulling;
       inhibitor.hold(pulling);
     }
-    say(zeroed ? GuardianWord::kZeroed : GuardianWord::kWatching);
+    answer_host(zeroed ? GuardianAnswer::kZeroed : GuardianAnswer::kWatching);
   }
 }
 
@@ -260,7 +260,7 @@ int main() {
   }
   if (chdir("/") != 0) return 1;
   ask_for_promptness();
-  if (!say(GuardianWord::kWatching)) return 1;
+  if (!answer_host(GuardianAnswer::kWatching)) return 1;
   bool pulled = false;
   if (watch(host, will, pulled) && carry_out(will) && pulled) return_settings(will);
   return 0;

@@ -153,8 +153,8 @@ bool LinkThread<BoardType>::guarded(bool pulling) noexcept {
 template <typename BoardType>
 LinkFault LinkThread<BoardType>::why_unguarded() const noexcept {
   const bool still = std::any_of(guardians_.begin(), guardians_.end(),
-                                 [](const auto& guardian) { return guardian->stood_still(); });
-  return still ? LinkFault::kStoodStill : LinkFault::kUnguarded;
+                                 [](const auto& guardian) { return guardian->was_suspended(); });
+  return still ? LinkFault::kSuspended : LinkFault::kUnguarded;
 }
 
 template <typename BoardType>

@@ -33,9 +33,9 @@ std::chrono::milliseconds period_of(int file) {
   return fstat(file, &status) == 0 && S_ISREG(status.st_mode) ? LineWriter::kPeriod : kOfPipe;
 }
 
-/// The first whole lines of `text` that have at most `room` bytes; one line if that is longer.
-std::string_view first_lines(std::string_view text, size_t room) {
-  size_t end = text.rfind('\n', room - 1);
+/// The first whole lines of `text` that have at most `capacity` bytes; one line if that is longer.
+std::string_view first_lines(std::string_view text, size_t capacity) {
+  size_t end = text.rfind('\n', capacity - 1);
   if (end == std::string_view::npos) end = text.find('\n');
   return text.substr(0, end == std::string_view::npos ? text.size() : end + 1);
 }

@@ -72,8 +72,8 @@ class DelayRun {
     }
     if (!loop_->lost()) return true;
     // In such a pause the guardian has set the motors to zero.
-    const bool stood_still = device_.health().last_fault == LinkFault::kStoodStill;
-    if (stood_still && ++reopened_ <= settings_.most_periods() && loop_->reopen()) return true;
+    const bool was_suspended = device_.health().last_fault == LinkFault::kSuspended;
+    if (was_suspended && ++reopened_ <= settings_.most_periods() && loop_->reopen()) return true;
     return fail_by_device(loss_text(device_.name(), device_.health().last_fault, late_ns));
   }
 

@@ -9,7 +9,7 @@
 namespace spidar::selftest {
 
 std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns) {
-  if (fault == LinkFault::kStoodStill) {
+  if (fault == LinkFault::kSuspended) {
     const int64_t late_ms = late_ns / 1'000'000;
     return name + ": this program stood still" +
            (late_ms > 0 ? " for " + std::to_string(late_ms) + " ms" : "") +
@@ -32,7 +32,8 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
   missing_.count(fault == LinkFault::kNone);
-  if (fault == LinkFault::kStoodStill) throw StoodStill(loss_text(held_.name(), fault, late_ns));
+  if (fault == LinkFault::kSuspended)
+    throw ProcessSuspended(loss_text(held_.name(), fault, late_ns));
   if (is_lost(fault) || missing_.is_lost()) {
     throw DeviceError(loss_text(held_.name(), held_.health().last_fault, late_ns));
   }
@@ -66,7 +67,7 @@ void StringHold::release() {
       value_ = from_N * left / kTicks;
       exchange();
     }
-  } catch (const StoodStill&) {
+  } catch (const ProcessSuspended&) {
     // The motors are already at zero.
   }
 }
@@ -90,7 +91,7 @@ void ForceHold::open() {
 void ForceHold::release() {
   try {
     go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
-  } catch (const StoodStill&) {
+  } catch (const ProcessSuspended&) {
     // The motors are already at zero.
   }
 }

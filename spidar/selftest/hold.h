@@ -26,7 +26,7 @@ using Pace = std::function<bool()>;
 
 /// This program got no processor time, or was stopped, for so long that the guardian has set the
 /// motors to zero. The interrupted part of the test can be repeated, see repeated().
-class StoodStill : public DeviceError {
+class ProcessSuspended : public DeviceError {
  public:
   using DeviceError::DeviceError;
 };
@@ -38,7 +38,7 @@ std::string loss_text(const std::string& name, LinkFault fault, int64_t late_ns)
 
 /// Runs `part` of a test, which begins at rest and takes less than a second. If this program was
 /// stopped meanwhile, opens the device of `hold` again, calls `begin`, and repeats the part. Throws
-/// StoodStill when that happens each time: nothing can be measured on such a machine.
+/// ProcessSuspended when that happens each time: nothing can be measured on such a machine.
 template <typename AnyHold, typename Begin, typename Part>
 bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
   constexpr int kRepetitions = 10;
@@ -49,7 +49,7 @@ bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
         if (!begin()) return false;
       }
       return part();
-    } catch (const StoodStill&) {
+    } catch (const ProcessSuspended&) {
       if (left == 0) throw;
     }
   }

@@ -51,7 +51,7 @@ class Asking {
       const bool reversed = answers.reversed[k];
       if (!ask(i, answers)) return false;
       if (settings_.try_reversed && !reversed && !answered(answers, i) &&
-          !ask_reversed(i, answers)) {
+          !measure_reversed(i, answers)) {
         return false;
       }
       tell(i, answers);
@@ -125,7 +125,7 @@ class Asking {
   }
 
   /// Tries the other sign and keeps it if the motor then pulls.
-  bool ask_reversed(int motor, WiringAnswers& answers) {
+  bool measure_reversed(int motor, WiringAnswers& answers) {
     if (!turn(motor) || !ask(motor, answers)) return false;
     answers.reversed[static_cast<size_t>(motor)] = answered(answers, motor);
     return answered(answers, motor) || turn(motor);
@@ -211,18 +211,18 @@ double smallest_answer_m(const Profile& profile) {
   return kCounts * coarsest_m;
 }
 
-WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                         const WiringSettings& settings) {
+WiringAnswers measure_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
+                             const WiringSettings& settings) {
   WiringAnswers answers;
   std::array<bool, kMaxStrings> all{};
   all.fill(true);
-  ask_again(device, profile, pace, settings, all, answers);
+  measure_again(device, profile, pace, settings, all, answers);
   return answers;
 }
 
-void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
-               const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
-               WiringAnswers& answers) {
+void measure_again(StringDevice& device, const Profile& profile, const Pace& pace,
+                   const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
+                   WiringAnswers& answers) {
   Asking(device, profile, pace, settings).run(motors, answers);
 }
 

@@ -50,12 +50,12 @@ struct WiringAnswers {
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away by 30 mm, further than a
 /// hand gives way: the motor unwinds the string, or nobody holds the grip.
-WiringAnswers ask_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
-                         const WiringSettings& settings = {});
+WiringAnswers measure_wiring(StringDevice& device, const Profile& profile, const Pace& pace,
+                             const WiringSettings& settings = {});
 
-void ask_again(StringDevice& device, const Profile& profile, const Pace& pace,
-               const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
-               WiringAnswers& answers);
+void measure_again(StringDevice& device, const Profile& profile, const Pace& pace,
+                   const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
+                   WiringAnswers& answers);
 
 /// The smallest change of length that counts as an answer, m: above the tremor of a hand.
 double smallest_answer_m(const Profile& profile);

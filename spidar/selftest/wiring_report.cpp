@@ -276,7 +276,7 @@ std::pair<WiringAnswers, WiringReport> test_wiring(
     StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
     const std::function<void(const WiringReport&)>& repeat) {
   WiringReport report;
-  WiringAnswers answers = ask_wiring(device, profile, pace, settings);
+  WiringAnswers answers = measure_wiring(device, profile, pace, settings);
   for (int tries = 1; answers.complete; ++tries) {
     report = judge_wiring(profile, answers);
     const auto& channels = report.channel;
@@ -290,7 +290,7 @@ std::pair<WiringAnswers, WiringReport> test_wiring(
       doubtful.fill(true);
     }
     if (repeat) repeat(report);
-    ask_again(device, profile, pace, settings, doubtful, answers);
+    measure_again(device, profile, pace, settings, doubtful, answers);
   }
   return {answers, report};
 }

@@ -29,7 +29,7 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   loop.set_playback_clock(clock);
   DeviceView view;
   TickRecord record;
-  output.look_at_device(view);
+  output.read_device(view);
   while (loop.pop_record(record)) {
   }
   double widest_N = 0;
@@ -37,7 +37,7 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
     ASSERT_EQ(h.push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * 40 * GST_MSECOND),
               GST_FLOW_OK);
     tick(40);
-    ASSERT_TRUE(output.look_at_device(view));
+    ASSERT_TRUE(output.read_device(view));
     ASSERT_EQ(view.ticks.size(), 40u);
     for (const ForceTick& seen : view.ticks) {
       ASSERT_TRUE(loop.pop_record(record));
@@ -51,15 +51,15 @@ TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
   EXPECT_GT(widest_N, 0.1) << "the force changes between looks";
   // Where nobody looked for longer than ticks are kept, there are none rather than the first ones.
   tick(1000);
-  output.look_at_device(view);
+  output.read_device(view);
   EXPECT_EQ(view.ticks.size(), 1000u);
   for (const int count : {1100, 3000}) {
     tick(count);
-    output.look_at_device(view);
+    output.read_device(view);
     EXPECT_TRUE(view.ticks.empty()) << count;
   }
   tick(10);
-  output.look_at_device(view);
+  output.read_device(view);
   EXPECT_EQ(view.ticks.size(), 10u);
 }
 

@@ -86,7 +86,7 @@ TEST_F(StickTest, TheSimulatedOnePointsAtTheCentre) {
   open("device=sim:ff pointer=grip");
   EXPECT_NEAR(stick_x_m(), 0, 1e-4);
   DeviceView view;
-  ASSERT_TRUE(h->state().feed.output.look_at_device(view));
+  ASSERT_TRUE(h->state().feed.output.read_device(view));
   EXPECT_FALSE(view.has_strings) << "the window shows none";
   // The pointer is on the second disc. The edge of the other one is 130 + 10 − 24 px away, which is
   // 1.9 σ of 60 px and leaves that one exp(−1.9² / 2) = 0.16 of the weight for an equal area. If it

@@ -102,7 +102,7 @@ TEST_P(Players, AreFoundAgainAfterAJump) {
     Followed told(GetParam());
     told.play(5 * kSecond);
     told.jump(by_ns);
-    told.filter().tell_jump(told.now_ns(), told.position_ns());
+    told.filter().add_jump(told.now_ns(), told.position_ns());
     EXPECT_NEAR(told.estimate_error_ms(), 0, 1e-3) << by_ns;
 
     Followed untold(GetParam());
@@ -119,7 +119,7 @@ TEST_P(Players, AreFoundAgainAfterAJump) {
 TEST(PositionFilter, WhereAJumpLeadsCountsUntilTheNextPosition) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
-  filter.tell_jump(kBegin, 20 * kSecond);
+  filter.add_jump(kBegin, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + 50 * kMs), 20 * kSecond + 50 * kMs);
   filter.add(kBegin + 300 * kMs, 20 * kSecond + 250 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + 300 * kMs), 20 * kSecond + 250 * kMs);
@@ -130,7 +130,7 @@ TEST(PositionFilter, AJumpOverNothingIsFollowedFromTheNextPositionOn) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 0, 1);
   for (int i = 1; i < 5; ++i) filter.add(kBegin + i * 300 * kMs, i * 300 * kMs);
-  filter.tell_jump(kBegin + 1300 * kMs, 1300 * kMs);
+  filter.add_jump(kBegin + 1300 * kMs, 1300 * kMs);
   filter.add(kBegin + 1600 * kMs, 1520 * kMs);
   EXPECT_EQ(filter.position_at(kBegin + 1600 * kMs), 1520 * kMs);
 }
@@ -168,7 +168,7 @@ TEST(PositionFilter, TheLargestSmallErrorAfterAJumpIsGoneAfterAQuarterOfASecond)
 TEST(PositionFilter, AJumpThatWasNoneChangesNothing) {
   follow::PositionFilter filter;
   filter.reset(kBegin, 20 * kSecond, 1);
-  filter.tell_jump(kBegin + 90 * kMs, 20 * kSecond);
+  filter.add_jump(kBegin + 90 * kMs, 20 * kSecond);
   EXPECT_EQ(filter.position_at(kBegin + kSecond), 21 * kSecond);
 }
 

@@ -162,7 +162,7 @@ void TormentedPlayer::stop() {
   EXPECT_EQ(state().feed.output.session(), nullptr);
   const std::filesystem::path trace = folder_.path / "haptic.csv";
   if (!std::filesystem::exists(trace)) return;
-  watch_.see_trace(trace);
+  watch_.check_trace(trace);
   std::filesystem::remove(trace);
   // Nothing can be given to a device that is lost. And of a long trace the end may be missing,
   // where the machine was too busy to write it: the loop keeps this many rows.

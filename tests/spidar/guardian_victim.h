@@ -56,7 +56,7 @@ void exchange_until(StringDevice& device, const MotorVolts& volts, const Conditi
 
 /// What spidarctl says on a machine that is too busy: it, its guardian, or the thread that talks to
 /// its board had no processor time.
-inline bool stood_still(const std::string& log) {
+inline bool was_suspended(const std::string& log) {
   return log.find("this program stood still") != std::string::npos;
 }
 inline bool is_unguarded(const std::string& log) {
@@ -64,7 +64,7 @@ inline bool is_unguarded(const std::string& log) {
          std::string::npos;
 }
 inline bool is_disturbed(const std::string& log) {
-  return stood_still(log) || is_unguarded(log) ||
+  return was_suspended(log) || is_unguarded(log) ||
          log.find(": does not answer any more; check cable and power") != std::string::npos;
 }
 

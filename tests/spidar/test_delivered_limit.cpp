@@ -22,7 +22,7 @@ constexpr double kFastest_Hz = 3.7;
 
 /// kMax_m, or what there is room for: beyond, the grip passes the exits of its strings.
 double room_m(const Profile& profile) {
-  return std::min(kMax_m, half_room_m(profile.geometry).minCoeff());
+  return std::min(kMax_m, half_workspace_m(profile.geometry).minCoeff());
 }
 
 /// Goes about within `reach_m` and 20° in sines of these frequencies, at up to 0.5 m/s.
@@ -220,7 +220,7 @@ Rates rates_of(const Profile& profile, double force_N, double torque_Nm, double 
     const TickRecord now = grip.snapshot().last;
     const Wrench rest = grip.loop->grip().reading().at_rest;
     const double error_N = (now.delivered.force_N - now.commanded.force_N - rest.force_N).norm();
-    watch.see(now, grip.snapshot().limits);
+    watch.check(now, grip.snapshot().limits);
     // The brake is faster; the watch has judged it.
     if (!now.brakes && !before.brakes && before.faulty_string < 0) {
       const auto raise = [](double& rate, double change) { rate = std::max(rate, 1e3 * change); };

@@ -59,7 +59,7 @@ TEST(FalconGrip, GivesItsLargestForceEverywhere) {
 TEST(FalconGrip, ReachesTheWholeRoomThatItStates) {
   ForceBench bench("falcon");
   const auto grip = bench.grip();
-  const std::array<double, 3> half_m = grip->abilities().half_room_m;
+  const std::array<double, 3> half_m = grip->abilities().half_workspace_m;
   grip->open();
   for (int corner = 0; corner < 8; ++corner) {
     Eigen::Vector3d at_m;

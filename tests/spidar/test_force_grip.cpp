@@ -276,10 +276,11 @@ TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
   GripCommand command = told(0.1, 0.2);
   command.wrench.force_N.z() = -0.3;
   ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
-  const StringGeometry room = with_room(bench.profile.geometry, grip->abilities().half_room_m);
-  EXPECT_TRUE(half_room_m(room).isApproxToConstant(0.07, 1e-12));
-  EXPECT_EQ(half_room_m(with_room(bench.profile.geometry, {})),
-            half_room_m(bench.profile.geometry));
+  const StringGeometry room =
+      with_workspace(bench.profile.geometry, grip->abilities().half_workspace_m);
+  EXPECT_TRUE(half_workspace_m(room).isApproxToConstant(0.07, 1e-12));
+  EXPECT_EQ(half_workspace_m(with_workspace(bench.profile.geometry, {})),
+            half_workspace_m(bench.profile.geometry));
   EXPECT_EQ(bench.motors.digit[0], 100);
   EXPECT_EQ(bench.motors.digit[1], 200);
   EXPECT_EQ(bench.motors.digit[2], -300);

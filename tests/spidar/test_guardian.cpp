@@ -217,7 +217,7 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
       EXPECT_TRUE(port.at_rest());
       // On a busy machine, the guardian may have found that this process stood still before.
       const LinkFault fault = device->health().last_fault;
-      EXPECT_TRUE(fault == LinkFault::kUnguarded || fault == LinkFault::kStoodStill)
+      EXPECT_TRUE(fault == LinkFault::kUnguarded || fault == LinkFault::kSuspended)
           << to_string(fault);
       device->close();
       EXPECT_EQ(guardian_process(), 0);

@@ -193,7 +193,7 @@ TEST(GuardianPairs, APlayerThatPausedAtRestGivesItsGuardianTime) {
   for (; watched.guardian->watch(false); ++calls) sleep_ms(2 * kBeat_ms);
   EXPECT_GE(calls, kAnswer_ms / kBeat_ms);
   EXPECT_LE(calls, kAnswer_ms / kBeat_ms + 2);
-  EXPECT_FALSE(watched.guardian->stood_still());
+  EXPECT_FALSE(watched.guardian->was_suspended());
 }
 
 /// However seldom the player gets a processor: the time that it did not run counts.
@@ -220,7 +220,7 @@ TEST(GuardianPairs, APlayerThatStoodStillWhileMotorsPulledRests) {
   kill(watched.process, SIGSTOP);
   sleep_ms(kSilence_ms + 1);
   EXPECT_FALSE(watched.guardian->watch(true));
-  EXPECT_TRUE(watched.guardian->stood_still());
+  EXPECT_TRUE(watched.guardian->was_suspended());
 }
 
 /// A control group of version 2, if this process may make one; it ends with its processes.

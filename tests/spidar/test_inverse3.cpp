@@ -16,9 +16,9 @@ ByteView view(const std::string& text) {
 }
 
 template <typename Encode>
-std::string written(const Encode& encode, size_t room = inverse3::kCommandSize) {
-  std::string text(room, '\0');
-  text.resize(encode(MutableBytes(reinterpret_cast<uint8_t*>(text.data()), room)));
+std::string written(const Encode& encode, size_t capacity = inverse3::kCommandSize) {
+  std::string text(capacity, '\0');
+  text.resize(encode(MutableBytes(reinterpret_cast<uint8_t*>(text.data()), capacity)));
   return text;
 }
 

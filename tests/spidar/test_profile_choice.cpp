@@ -202,8 +202,8 @@ TEST_F(ProfileChoice, WhatStoppedTheMotorsIsNamed) {
       std::ifstream file(log);
       text.assign(std::istreambuf_iterator<char>(file), {});
       clear_bus();
-    } while (stopped ? is_unguarded(text) : stood_still(text));
-    EXPECT_TRUE(stopped ? stood_still(text) : is_unguarded(text)) << text;
+    } while (stopped ? is_unguarded(text) : was_suspended(text));
+    EXPECT_TRUE(stopped ? was_suspended(text) : is_unguarded(text)) << text;
     EXPECT_EQ(text.find("cable"), std::string::npos) << text;
   }
 }

@@ -186,7 +186,7 @@ class Round {
     }
     seen.resting = !playing_ && rest_in_ns_ < 0;
     seen.felt = simulated_.felt();
-    watch_.see(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");
+    watch_.check(seen, where_ + ", at " + std::to_string(now_ns_ / kMs) + " ms");
   }
 
   /// Off within 100 ms of time in which the device answers.
@@ -204,7 +204,7 @@ class Round {
     off.told_N = tensions_N(device_.volts(), real_);
     off.released = off.resting = true;
     off.felt = simulated_.felt();
-    watch_.see(off, where_ + ", closed");
+    watch_.check(off, where_ + ", closed");
   }
 
   RandomMotion random_, random_limits_;

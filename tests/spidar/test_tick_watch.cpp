@@ -36,7 +36,7 @@ struct Played {
     record.monotonic_ns += step_ns;
     if (clock_goes_on) record.running_ns += step_ns;
     record.commanded.force_N.x() = force_N;
-    watch.see(record, SafetyLimits{});
+    watch.check(record, SafetyLimits{});
   }
 };
 
@@ -141,9 +141,9 @@ class Rows {
     file_ << row;
   }
 
-  void see() {
+  void check() {
     file_.flush();
-    TickWatch().see_trace(path_);
+    TickWatch().check_trace(path_);
   }
 
  private:
@@ -161,9 +161,9 @@ TEST(TickWatch, TellsInATraceWhatTheDeviceDidNotAnswer) {
     for (int i = 0; i < 40; ++i) rows.add(0.1, true, false);
     for (int i = 1; i < HapticLoop::kMaxErrors; ++i) rows.add(0.1, acknowledged, false);
     if (acknowledged)
-      EXPECT_NONFATAL_FAILURE(rows.see(), "not at rest");
+      EXPECT_NONFATAL_FAILURE(rows.check(), "not at rest");
     else
-      rows.see();
+      rows.check();
   }
 }
 
@@ -184,15 +184,15 @@ TEST(TickWatch, TellsInATraceWhenTheBrakeActs) {
     for (int i = 0; i < 10; ++i) rows.add(c.from_N, true, c.brakes);
     rows.add(c.to_N, true, c.brakes);
     if (c.fault == nullptr)
-      rows.see();
+      rows.check();
     else
-      EXPECT_NONFATAL_FAILURE(rows.see(), c.fault);
+      EXPECT_NONFATAL_FAILURE(rows.check(), c.fault);
   }
 }
 
 TEST(TickWatch, MissesTheTrace) {
   TickWatch watch;
-  EXPECT_NONFATAL_FAILURE(watch.see_trace("/nowhere/trace.csv"), "no haptic trace");
+  EXPECT_NONFATAL_FAILURE(watch.check_trace("/nowhere/trace.csv"), "no haptic trace");
 }
 
 }  // namespace

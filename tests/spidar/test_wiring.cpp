@@ -41,15 +41,16 @@ selftest::WiringReport test_of(const Profile& profile, const std::string& faults
   MiswiredDevice device(std::move(sim), faults);
   selftest::WiringSettings settings;
   settings.try_reversed = try_reversed;
-  const selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, at_once, settings);
+  const selftest::WiringAnswers answers =
+      selftest::measure_wiring(device, profile, at_once, settings);
   EXPECT_TRUE(answers.complete);
   return selftest::judge_wiring(profile, answers);
 }
 
 TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
-  const std::string known = selftest::loss_text("usb", LinkFault::kStoodStill, 250'000'000);
+  const std::string known = selftest::loss_text("usb", LinkFault::kSuspended, 250'000'000);
   EXPECT_NE(known.find("stood still for 250 ms, because"), std::string::npos) << known;
-  const std::string unknown = selftest::loss_text("usb", LinkFault::kStoodStill, 0);
+  const std::string unknown = selftest::loss_text("usb", LinkFault::kSuspended, 0);
   EXPECT_NE(unknown.find("stood still, because"), std::string::npos) << unknown;
 }
 
@@ -68,12 +69,12 @@ class PausedDevice final : public StringDevice {
   LinkFault exchange(const MotorVolts& volts, DeviceReading& reading) noexcept override {
     ++exchanges_;
     lost_ = lost_ || std::find(pauses_.begin(), pauses_.end(), exchanges_) != pauses_.end();
-    return lost_ ? LinkFault::kStoodStill : real_.exchange(volts, reading);
+    return lost_ ? LinkFault::kSuspended : real_.exchange(volts, reading);
   }
   void close() noexcept override { real_.close(); }
   LinkHealth health() const noexcept override {
     LinkHealth health;
-    if (lost_) health.last_fault = LinkFault::kStoodStill;
+    if (lost_) health.last_fault = LinkFault::kSuspended;
     return health;
   }
   int opened = 0;
@@ -90,12 +91,12 @@ class PausedDevice final : public StringDevice {
 TEST(Wiring, IsFoundAlthoughTheProgramStoodStill) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice undisturbed(profile, SimulatedDevice::Time::kFixedStep);
-  const selftest::WiringAnswers right = selftest::ask_wiring(undisturbed, profile, at_once);
+  const selftest::WiringAnswers right = selftest::measure_wiring(undisturbed, profile, at_once);
   // While the strings are tightened, in pulls, and in the release.
   for (const std::vector<int>& pauses :
        {std::vector<int>{50}, {700, 1900, 2500}, {400, 401, 402}, {8000, 8100, 8200, 8300}}) {
     PausedDevice device(profile, pauses);
-    const selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, at_once);
+    const selftest::WiringAnswers answers = selftest::measure_wiring(device, profile, at_once);
     EXPECT_TRUE(answers.complete);
     EXPECT_EQ(faults_of(selftest::judge_wiring(profile, answers)),
               faults_of(selftest::judge_wiring(profile, right)));
@@ -108,7 +109,7 @@ TEST(Wiring, IsNotLookedForOnAMachineThatStandsStillForEver) {
   std::vector<int> always(100'000);
   std::iota(always.begin(), always.end(), 100);
   PausedDevice device(profile, always);
-  EXPECT_THROW(selftest::ask_wiring(device, profile, at_once), selftest::StoodStill);
+  EXPECT_THROW(selftest::measure_wiring(device, profile, at_once), selftest::ProcessSuspended);
   EXPECT_EQ(device.opened, 11);
 }
 
@@ -127,7 +128,7 @@ TEST(Wiring, EveryExchangeOfTwoIsFound) {
   for (const std::string name : {"spidar-gcc", "spidar-g6x3-v2-r", "spidar-g6x4", "spidar-i7"}) {
     const Profile profile = load_profile(name);
     SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-    const selftest::WiringAnswers right = selftest::ask_wiring(device, profile, at_once);
+    const selftest::WiringAnswers right = selftest::measure_wiring(device, profile, at_once);
     for (int a = 0; a < profile.geometry.count; ++a) {
       for (int b = a + 1; b < profile.geometry.count; ++b) {
         for (const bool motors : {false, true}) {
@@ -200,7 +201,7 @@ TEST(Wiring, RewiredProfileIsTheDeviceAsItIs) {
   auto sim = std::make_unique<SimulatedDevice>(profile, SimulatedDevice::Time::kFixedStep);
   MiswiredDevice device(std::move(sim), wiring);
   const selftest::WiringReport again =
-      selftest::judge_wiring(rewired, selftest::ask_wiring(device, rewired, at_once));
+      selftest::judge_wiring(rewired, selftest::measure_wiring(device, rewired, at_once));
   EXPECT_TRUE(again.as_profile()) << faults_of(again);
 }
 
@@ -229,7 +230,7 @@ TEST(Wiring, PullingEndsWithTheMotorsAtZero) {
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
   int ticks = 0;
   const selftest::WiringAnswers answers =
-      selftest::ask_wiring(device, profile, [&ticks] { return ++ticks < 1000; });
+      selftest::measure_wiring(device, profile, [&ticks] { return ++ticks < 1000; });
   EXPECT_FALSE(answers.complete);
   EXPECT_EQ(device.felt().tension_N.norm(), 0);
 }
@@ -241,7 +242,7 @@ TEST(Wiring, AStringThatRunsAwayEndsTheTest) {
   nobody.hand_damping_N_s_m = 0.5;
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep, nobody);
   try {
-    selftest::ask_wiring(device, profile, at_once);
+    selftest::measure_wiring(device, profile, at_once);
     FAIL() << "nothing ran away";
   } catch (const DeviceError& error) {
     EXPECT_NE(std::string(error.what()).find("hold the grip"), std::string::npos) << error.what();
@@ -259,9 +260,10 @@ TEST(Wiring, LostDeviceEndsTheTest) {
       return true;
     };
   };
-  EXPECT_THROW(selftest::ask_wiring(device, profile, fail_at(LinkFault::kGone)), DeviceError);
+  EXPECT_THROW(selftest::measure_wiring(device, profile, fail_at(LinkFault::kGone)), DeviceError);
   device.set_fault(LinkFault::kNone);
-  EXPECT_THROW(selftest::ask_wiring(device, profile, fail_at(LinkFault::kTimeout)), DeviceError);
+  EXPECT_THROW(selftest::measure_wiring(device, profile, fail_at(LinkFault::kTimeout)),
+               DeviceError);
 }
 
 }  // namespace spidar::test::wiring_test

@@ -98,12 +98,12 @@ TEST(Wiring, AnUnrulyHandNeverMakesABadDevicePass) {
 TEST(Wiring, OnlyDoubtfulMotorsArePulledAgain) {
   const Profile profile = load_profile("spidar-gcc");
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep);
-  selftest::WiringAnswers answers = selftest::ask_wiring(device, profile, without_pauses);
+  selftest::WiringAnswers answers = selftest::measure_wiring(device, profile, without_pauses);
   const auto right = answers.counts;
   answers.counts.setConstant(1);
   std::array<bool, kMaxStrings> doubtful{};
   doubtful[2] = true;
-  selftest::ask_again(device, profile, without_pauses, {}, doubtful, answers);
+  selftest::measure_again(device, profile, without_pauses, {}, doubtful, answers);
   EXPECT_TRUE(answers.complete);
   // To a count: both are averages of readings that are rounded.
   EXPECT_LE((answers.counts.col(2) - right.col(2)).cwiseAbs().maxCoeff(), 1);

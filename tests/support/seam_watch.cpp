@@ -44,7 +44,7 @@ bool SeamWatch::never_pushes(const Tick& tick, double passed_s) const {
   return now.dot(motion) <= std::max(0.0, before.dot(motion)) + paced_W + wrong_W + kRounding_N;
 }
 
-void SeamWatch::see(const Tick& tick, const std::string& where) {
+void SeamWatch::check(const Tick& tick, const std::string& where) {
   const int count = real_.geometry.count;
   for (int i = 0; i < count; ++i) {
     const double told_N = tick.told_N[i];

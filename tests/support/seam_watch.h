@@ -31,7 +31,7 @@ class SeamWatch {
   };
 
   /// `where` is printed on failure.
-  void see(const Tick& tick, const std::string& where);
+  void check(const Tick& tick, const std::string& where);
 
   /// Tells that the device was closed or opened: the motors are at zero.
   void reset() { told_N_.setZero(); }

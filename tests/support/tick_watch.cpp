@@ -89,11 +89,11 @@ TickRecord record_of(const Row& row) {
 TickRecord TickWatch::tick(HapticLoop& loop, int64_t now_ns) {
   loop.tick(now_ns, now_ns);
   const LoopSnapshot snapshot = loop.snapshot();
-  see(snapshot.last, snapshot.limits);
+  check(snapshot.last, snapshot.limits);
   return snapshot.last;
 }
 
-void TickWatch::see(const TickRecord& record, const SafetyLimits& limits) {
+void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
   // The loop is another one, or was reopened, or the trace has a gap.
   if (record.tick != last_.tick + 1) following_ = false;
   if (!following_) motion_.reset();
@@ -215,7 +215,7 @@ void TickWatch::look_at_age(const TickRecord& record, double dt_s) {
   if (record.monotonic_ns - fading_in_since_ns_ > kFadeIn_ns) fail(record, "force on an old frame");
 }
 
-void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {
+void TickWatch::check_trace(const std::string& path, const SafetyLimits& limits) {
   std::ifstream file(path);
   std::string line;
   if (!std::getline(file, line)) {
@@ -230,7 +230,7 @@ void TickWatch::see_trace(const std::string& path, const SafetyLimits& limits) {
     const TickRecord record = record_of(Row(columns, line));
     held.max_force_N = record.max_force_N;
     held.max_torque_Nm = record.max_torque_Nm;
-    see(record, held);
+    check(record, held);
   }
 }
 

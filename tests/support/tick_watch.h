@@ -24,11 +24,11 @@ class TickWatch {
   /// Checks the next tick of a loop that ran under these limits. Uses tick, monotonic_ns,
   /// running_ns, frame_ns, found, playing, device, acknowledged, brakes, pose, wanted and
   /// commanded.
-  void see(const TickRecord& record, const SafetyLimits& limits);
+  void check(const TickRecord& record, const SafetyLimits& limits);
 
   /// Checks the trace of a loop that ran under the total limits in the trace and the other limits
   /// of `limits`. Fails when there is no trace.
-  void see_trace(const std::string& path, const SafetyLimits& limits = {});
+  void check_trace(const std::string& path, const SafetyLimits& limits = {});
 
   uint64_t ticks() const { return ticks_; }
   /// The number of ticks with a force or a torque.

@@ -49,8 +49,8 @@ class Film {
   int64_t next_ns_ = 0, begin_ns_ = 0;
 };
 
-window::Sighting object(uint32_t id, double first_s, const Vector2d& position) {
-  window::Sighting made;
+window::Observation object(uint32_t id, double first_s, const Vector2d& position) {
+  window::Observation made;
   made.id = id;
   made.first_ns = static_cast<int64_t>(first_s * 1e9);
   made.first_position = position;
@@ -145,7 +145,7 @@ TEST_F(Choices, LetGoOfLeaveWhatTheRulesSay) {
   film.play(0, 1, {1});
   choices.choose(object(1, 0, {0.25, 0.5}));
   EXPECT_EQ(rules(choices, before), "0:00-0:01 object at 0.25,0.5");
-  choices.let_go();
+  choices.undo_last();
   EXPECT_EQ(rules(choices, before), before);
   EXPECT_FALSE(choices.has_unsaved());
 }
@@ -170,7 +170,7 @@ TEST_F(Choices, SavedAndLetGoOfAreTakenOutOfTheRules) {
   film.play(0, 1, {1});
   choices.choose(object(1, 0.2, {0.25, 0.5}));
   choices.saved();
-  choices.let_go();
+  choices.undo_last();
   EXPECT_TRUE(choices.has_unsaved());
   EXPECT_EQ(rules(choices, "0:00.2-0:01 object at 0.25,0.5"), "");
   film.play(1, 2.1, {});
@@ -214,7 +214,7 @@ TEST_F(Choices, NeedATimeInTheFilm) {
   choices.update({});
   choices.choose(object(1, 0, {0.25, 0.5}));
   film.play(0, 1, {1});
-  choices.choose(window::Sighting());
+  choices.choose(window::Observation());
   EXPECT_TRUE(choices.edits().empty());
 }
 
@@ -235,41 +235,41 @@ DrawnFrame seen(double at_s, double scene_s, const std::vector<uint32_t>& object
   return report;
 }
 
-TEST(Sightings, AreTheFirstOfTheScene) {
-  window::Sightings sightings;
-  sightings.update(seen(0, 0, {1}));
-  sightings.update(seen(1, 0, {1, 2}));
-  ASSERT_TRUE(sightings.find(1) && sightings.find(2));
-  EXPECT_EQ(sightings.find(1)->first_ns, 0);
-  EXPECT_EQ(sightings.find(1)->first_position, Vector2d(0.5, 0.25));
-  EXPECT_EQ(sightings.find(2)->first_ns, kSecond);
-  EXPECT_EQ(sightings.find(3), nullptr);
-  sightings.update(seen(2.9, 0, {}));
-  EXPECT_TRUE(sightings.find(1)) << "it may be hidden";
-  sightings.update(seen(3.1, 0, {}));
-  EXPECT_EQ(sightings.find(1), nullptr);
-  sightings.update(seen(3.2, 0, {4}));
-  sightings.update(seen(3.3, 3.3, {4}));
-  EXPECT_EQ(sightings.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
+TEST(Observations, AreTheFirstOfTheScene) {
+  window::Observations observations;
+  observations.update(seen(0, 0, {1}));
+  observations.update(seen(1, 0, {1, 2}));
+  ASSERT_TRUE(observations.find(1) && observations.find(2));
+  EXPECT_EQ(observations.find(1)->first_ns, 0);
+  EXPECT_EQ(observations.find(1)->first_position, Vector2d(0.5, 0.25));
+  EXPECT_EQ(observations.find(2)->first_ns, kSecond);
+  EXPECT_EQ(observations.find(3), nullptr);
+  observations.update(seen(2.9, 0, {}));
+  EXPECT_TRUE(observations.find(1)) << "it may be hidden";
+  observations.update(seen(3.1, 0, {}));
+  EXPECT_EQ(observations.find(1), nullptr);
+  observations.update(seen(3.2, 0, {4}));
+  observations.update(seen(3.3, 3.3, {4}));
+  EXPECT_EQ(observations.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
 }
 
-TEST(Sightings, AreForgottenWithASeekAndGoOnAfterAGap) {
-  window::Sightings sightings;
-  sightings.update(seen(1, 0, {1}));
+TEST(Observations, AreForgottenWithASeekAndGoOnAfterAGap) {
+  window::Observations observations;
+  observations.update(seen(1, 0, {1}));
   DrawnFrame later = seen(2.5, 0, {1});
-  sightings.update(later);
-  EXPECT_EQ(sightings.find(1)->first_ns, kSecond) << "a gap in the film";
+  observations.update(later);
+  EXPECT_EQ(observations.find(1)->first_ns, kSecond) << "a gap in the film";
   ++later.stamp.epoch;
-  sightings.update(later);
-  EXPECT_EQ(sightings.find(1)->first_ns, later.stamp.stream_ns) << "to the same frame";
+  observations.update(later);
+  EXPECT_EQ(observations.find(1)->first_ns, later.stamp.stream_ns) << "to the same frame";
 }
 
-TEST(Sightings, PlacesAreThoseOfThePictureAsItIsShown) {
+TEST(Observations, PlacesAreThoseOfThePictureAsItIsShown) {
   DrawnFrame report = seen(1, 0, {1});
   report.turn = Orientation(1);
-  window::Sightings sightings;
-  sightings.update(report);
-  EXPECT_LT((sightings.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
+  window::Observations observations;
+  observations.update(report);
+  EXPECT_LT((observations.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
 DrawnFrame moment(double now_s, double length_s, const std::string& path = "/film.avi") {

@@ -114,7 +114,7 @@ TEST(MouseHand, WheelAndShiftMoveItDeeperAndNearer) {
   mouse.wheel = -1000;
   EXPECT_NEAR(hand.update(mouse, kPicture, pointer)->z(), window::MouseHand::kFurthest_m,
               kRounding);
-  hand.let_go();
+  hand.release();
   EXPECT_NEAR(hand.z_m(), window::MouseHand::kFurthest_m, kRounding) << "the depth stays";
 }
 

@@ -79,7 +79,7 @@ class FollowedFilm {
         GstState wanted;
         gst_message_parse_request_state(message, &wanted);
         const std::lock_guard<std::mutex> lock(mutex_);
-        wish_.add({wanted == GST_STATE_PLAYING, std::nullopt});
+        request_.add({wanted == GST_STATE_PLAYING, std::nullopt});
       }
       if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ASYNC_DONE) read_segment();
       gst_message_unref(message);
@@ -113,9 +113,9 @@ class FollowedFilm {
   }
 
   /// Returns the requests since the last call.
-  FilmWish take_wish() {
+  FilmRequest take_request() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return std::exchange(wish_, {});
+    return std::exchange(request_, {});
   }
 
  private:
@@ -191,7 +191,7 @@ class FollowedFilm {
     gint64 to_ns = 0;
     gst_event_parse_seek(event, nullptr, nullptr, nullptr, nullptr, &to_ns, nullptr, nullptr);
     const std::lock_guard<std::mutex> lock(self.mutex_);
-    self.wish_.add({std::nullopt, to_ns});
+    self.request_.add({std::nullopt, to_ns});
     return GST_PAD_PROBE_DROP;
   }
 
@@ -285,7 +285,7 @@ class FollowedFilm {
   const std::vector<std::string> properties_;
   VideoChoice videos_{VideoChoice::Rule::kMarked};
   std::mutex mutex_;
-  FilmWish wish_;  ///< set by the thread of the window
+  FilmRequest request_;  ///< set by the thread of the window
   std::atomic<guint32> own_seek_{GST_SEQNUM_INVALID};
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
@@ -339,9 +339,9 @@ void FilmThread::aim(FilmGoal goal) {
   goal_ = std::move(goal);
 }
 
-FilmWish FilmThread::take_wish() {
+FilmRequest FilmThread::take_request() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(wish_, {});
+  return std::exchange(request_, {});
 }
 
 bool FilmThread::end(std::chrono::milliseconds limit) {
@@ -371,9 +371,9 @@ void FilmThread::run() {
       tell("without force until the next film: " + plan->name);
       film.reset();
     }
-    const FilmWish wish = film ? film->take_wish() : FilmWish();
+    const FilmRequest request = film ? film->take_request() : FilmRequest();
     lock.lock();
-    wish_.add(wish);
+    request_.add(request);
   }
   lock.unlock();
   film.reset();

@@ -17,11 +17,11 @@
 namespace spidar::follow {
 
 /// Requests of the debug window for the player.
-struct FilmWish {
+struct FilmRequest {
   std::optional<bool> plays;
   std::optional<int64_t> position_ns;
 
-  void add(const FilmWish& later) {
+  void add(const FilmRequest& later) {
     if (later.plays) plays = later.plays;
     if (later.position_ns) position_ns = later.position_ns;
   }
@@ -50,7 +50,7 @@ class FilmThread {
   /// Sets the goal. Call this every few tens of milliseconds: else the force rests after 0.3 s.
   void aim(FilmGoal goal);
   /// Returns the requests since the last call.
-  FilmWish take_wish();
+  FilmRequest take_request();
   /// Closes what is open. Returns false if that takes longer than `limit`; the thread then still
   /// runs, and the process must end without this destructor.
   bool end(std::chrono::milliseconds limit);
@@ -62,7 +62,7 @@ class FilmThread {
   std::mutex mutex_;
   std::condition_variable changed_;
   FilmGoal goal_;
-  FilmWish wish_;
+  FilmRequest request_;
   bool ends_ = false, has_ended_ = false;
   std::thread thread_;
 };

@@ -85,7 +85,7 @@ class Follower {
     self.judge_position(now_ns);
     self.choose(now_ns);
     self.aim(now_ns);
-    self.carry_out(self.thread_->take_wish());
+    self.carry_out(self.thread_->take_request());
     return G_SOURCE_CONTINUE;
   }
 
@@ -115,7 +115,7 @@ class Follower {
                        take_position(now_ns, position_ns);
                      },
                      [this](int64_t now_ns, int64_t position_ns) {
-                       filter_.tell_jump(now_ns, position_ns);
+                       filter_.add_jump(now_ns, position_ns);
                        take_position(now_ns, position_ns);
                      },
                      [this](Player& told) { tell_once(short_name(told.bus_name()) + kRefuses); }});
@@ -358,14 +358,15 @@ class Follower {
   }
 
   /// Controls the player that is followed.
-  void carry_out(const FilmWish& wish) {
+  void carry_out(const FilmRequest& request) {
     if (!player_ || !player_->state()) return;
     const bool plays = state_.status == PlayerStatus::kPlaying;
-    const bool toggles = wish.plays && *wish.plays != plays;
-    if ((toggles && !state_.can_pause) || (wish.position_ns && !state_.can_seek)) {
+    const bool toggles = request.plays && *request.plays != plays;
+    if ((toggles && !state_.can_pause) || (request.position_ns && !state_.can_seek)) {
       return tell_once(short_name(player_->bus_name()) + kRefuses);
     }
-    if (wish.position_ns) player_->seek(*wish.position_ns, *wish.position_ns - position_ns_);
+    if (request.position_ns)
+      player_->seek(*request.position_ns, *request.position_ns - position_ns_);
     if (toggles) player_->toggle();
   }
 

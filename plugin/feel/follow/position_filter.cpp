@@ -60,7 +60,7 @@ void PositionFilter::add(int64_t now_ns, int64_t position_ns) {
   keep(begin_of(now_ns, position_ns));
 }
 
-void PositionFilter::tell_jump(int64_t now_ns, int64_t position_ns) {
+void PositionFilter::add_jump(int64_t now_ns, int64_t position_ns) {
   if (!has_begun()) return;
   backward_ = 0;
   const int64_t late_ns = begin_of(now_ns, position_ns) - earliest_ns();

@@ -28,7 +28,7 @@ class PositionFilter {
   /// Takes a reported position. The same one again is ignored.
   void add(int64_t now_ns, int64_t position_ns);
   /// Takes a reported jump to this position. VLC also reports jumps when there was none.
-  void tell_jump(int64_t now_ns, int64_t position_ns);
+  void add_jump(int64_t now_ns, int64_t position_ns);
 
   bool has_begun() const { return count_ > 0; }
   /// Whether each of the newest kBackward positions was before its predecessor, without a jump.

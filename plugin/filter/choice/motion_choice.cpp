@@ -153,7 +153,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, Chosen::State state) {
 
 void MotionChoice::tell_of_click(const KeptObject& kept, Chosen::State state) {
   if (state == Chosen::State::kGood) return;
-  mouse_.let_go(kept.click);
+  mouse_.release(kept.click);
   const auto inform = [this](const std::string& text, const char* advice) {
     post_information(element_, GST_STREAM_ERROR, GST_STREAM_ERROR_FAILED, text, advice);
   };

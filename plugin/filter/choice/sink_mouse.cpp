@@ -99,7 +99,7 @@ KeptObject MousePointer::kept() const {
   return kept_;
 }
 
-void MousePointer::let_go(uint32_t click) {
+void MousePointer::release(uint32_t click) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (kept_.click == click) kept_ = {};
 }

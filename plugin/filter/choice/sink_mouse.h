@@ -43,7 +43,7 @@ class MousePointer {
   void keep(const std::optional<Eigen::Vector2d>& position);
 
   /// Stops keeping the object of this click.
-  void let_go(uint32_t click);
+  void release(uint32_t click);
   void reset();
 
  private:

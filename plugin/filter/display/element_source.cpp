@@ -111,7 +111,7 @@ class ElementSource final : public window::Source {
     state.has_ended = reason == NoForceReason::kEnded;
     state.no_force = sentence_in_window(reason, state.is_playing);
     DeviceView device;
-    if (output_.look_at_device(device)) state.device = std::move(device);
+    if (output_.read_device(device)) state.device = std::move(device);
   }
 
   void set(const std::string& name, double wanted) override {

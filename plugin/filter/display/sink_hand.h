@@ -22,7 +22,7 @@ class SinkHand {
   void update(const FrameReport& report, int width, int height) {
     if (!report.analyzed) return;
     const bool touched = report.touch.on && width > 0 && height > 0;
-    if (!touched) return let_go();
+    if (!touched) return release();
     const std::lock_guard<std::mutex> lock(mutex_);
     touched_ = true;
     pointer_ = report.touch.pointer;
@@ -41,11 +41,11 @@ class SinkHand {
     if (mouse.act == SinkMouse::Act::kRelease) mouse_.down = false;
     return output_.lead_hand(hand_.update(mouse_, picture_, pointer_));
   }
-  void let_go() {
+  void release() {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!touched_) return;
     touched_ = mouse_.down = false;
-    hand_.let_go();
+    hand_.release();
     output_.lead_hand(std::nullopt);
   }
 

@@ -179,7 +179,7 @@ void DebugWindow::read() {
     const bool is_anew = report_.stamp.epoch != epoch_before;
     if (report_.click != click_before_ || is_anew) requested_.reset();
     follow_title();
-    sightings_.update(report_);
+    observations_.update(report_);
     follow_choices(film_before);
     // The recorded data belong to the previous stream.
     if (is_anew) timeline_.clear();

@@ -85,7 +85,7 @@ class DebugWindow {
   uint32_t click_before_ = 0;
   TwoSettings settings_;
   std::string title_;
-  Sightings sightings_;
+  Observations observations_;
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does
   std::optional<Mouse> given_mouse_;

@@ -131,7 +131,7 @@ void DebugWindow::use_mouse(const Mouse& mouse, const Rect& picture) {
   has_clicked_ = has_clicked_ || (mouse.down && !mouse.taken && picture.has(mouse.at_px));
   if (const auto request = click_.update(mouse, picture, report_)) choose(*request);
   if (!offers_hand() || picture.width <= 0 || click_.holds()) {
-    hand_.let_go();
+    hand_.release();
     return link_.lead_hand(std::nullopt);
   }
   const GripPointer pointer(state_.device->geometry, report_.turn);
@@ -166,9 +166,9 @@ void DebugWindow::choose(const ChoiceRequest& request) {
   link_.choose(request.position);
   requested_ = request.position ? request.object : 0;
   click_before_ = report_.click;
-  const Sighting* const object = sightings_.find(request.object);
+  const Observation* const object = observations_.find(request.object);
   if (!request.position) {
-    choices().let_go();
+    choices().undo_last();
   } else if (object) {
     choices().choose(*object);
   }

@@ -59,7 +59,7 @@ class MouseHand {
     const Eigen::Vector2d at_m = pointer.position_m(position_);
     return Eigen::Vector3d(at_m.x(), at_m.y(), z_m_);
   }
-  void let_go() { *this = MouseHand(z_m_); }
+  void release() { *this = MouseHand(z_m_); }
 
   bool holds() const { return holds_; }
   bool is_over() const { return over_; }

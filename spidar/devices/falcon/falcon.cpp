@@ -48,7 +48,7 @@ class Falcon final : public OnTransport<ForceBoard> {
   static constexpr GripAbilities kAbilities{.torque = false,
                                             .largest_force_N = kMostForce_N,
                                             .buttons = 4,
-                                            .half_room_m = {0.035, 0.035, 0.023}};
+                                            .half_workspace_m = {0.035, 0.035, 0.023}};
 
   /// The position of the grip in the last answer.
   struct Position {

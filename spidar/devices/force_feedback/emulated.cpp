@@ -26,13 +26,13 @@ void ForceFeedback::answer(const Structure& structure) noexcept {
 }
 
 void ForceFeedback::upload(const ff::Effect& effect) noexcept {
-  const size_t room = std::min<size_t>(slots_.size(), description_.effects);
+  const size_t capacity = std::min<size_t>(slots_.size(), description_.effects);
   size_t at = static_cast<size_t>(effect.number);
   if (effect.number == ff::kNewEffect) {
     at = 0;
-    while (at < room && slots_[at].used) ++at;
+    while (at < capacity && slots_[at].used) ++at;
   }
-  if (at >= room) return;
+  if (at >= capacity) return;
   slots_[at].effect = effect;
   slots_[at].used = true;
   answer(static_cast<int16_t>(at));

@@ -96,11 +96,12 @@ class Inverse3 final : public OnTransport<ForceBoard> {
 
  private:
   /// Half of the side of the square that fits the circle of kReach_m.
-  static constexpr double kRoom_m = 0.7 * inverse3::kReach_m;
-  static constexpr GripAbilities kAbilities{.torque = false,
-                                            .largest_force_N = inverse3::kLargestForce_N,
-                                            .buttons = inverse3::kButtons,
-                                            .half_room_m = {kRoom_m, kRoom_m, kRoom_m}};
+  static constexpr double kHalfSide_m = 0.7 * inverse3::kReach_m;
+  static constexpr GripAbilities kAbilities{
+      .torque = false,
+      .largest_force_N = inverse3::kLargestForce_N,
+      .buttons = inverse3::kButtons,
+      .half_workspace_m = {kHalfSide_m, kHalfSide_m, kHalfSide_m}};
 
   /// Sends the first `length` bytes of text_, and reads the state of the device.
   LinkFault ask(size_t length, inverse3::State& state, int64_t deadline_ns) noexcept {

@@ -30,7 +30,7 @@ struct ScenePlace {
   }
 };
 
-struct Sighting {
+struct Observation {
   uint32_t id = 0;
   int64_t first_ns = -1;                 ///< in the film; −1: unknown
   Eigen::Vector2d first_position{0, 0};  ///< a fraction of the shown picture
@@ -38,7 +38,7 @@ struct Sighting {
 };
 
 /// The objects that were seen in the scene on the screen.
-class Sightings {
+class Observations {
  public:
   /// An object that has been invisible for longer is forgotten, because it would return as another.
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
@@ -46,10 +46,10 @@ class Sightings {
   /// Takes the next frame on the screen. Another scene or film forgets all objects.
   void update(const DrawnFrame& report);
   /// Returns null for an unknown object.
-  const Sighting* find(uint32_t id) const;
+  const Observation* find(uint32_t id) const;
 
  private:
-  std::vector<Sighting> seen_;
+  std::vector<Observation> seen_;
   ScenePlace place_;
 };
 
@@ -68,9 +68,9 @@ class SceneChoices {
 
   /// Chooses `object`, in place of the choice in this scene while the object was visible. Changes
   /// nothing where the time in the film is unknown.
-  void choose(const Sighting& object);
+  void choose(const Observation& object);
   /// Undoes the last choice in this scene.
-  void let_go();
+  void undo_last();
   /// Removes all rules from one time to another.
   void remove(int64_t from_ns, int64_t to_ns);
   /// Tells that the scene has ended. Returns true when a choice ends with it.
