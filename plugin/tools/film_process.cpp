@@ -10,13 +10,15 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
-#include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 #include <vector>
 
 #include <gst/gst.h>
@@ -137,104 +139,75 @@ constexpr int kNoPart = -1;
 enum Argument {
   kProgram,
   kMarkArgument,
-  kParent,   // its process
-  kAnswers,  // descriptors
+  kParent,  // its process
+  kSocket,  // descriptors
   kPart,
-  kJob,   // has the job, because Linux takes no argument of more than 128 KiB
   kFilm,  // also for people who look at a list of processes
   kArguments
 };
 
-// The job is what FilmJob has besides the film, in MessagePack. Each answer is an object in
-// MessagePack after its length, a uint32_t: {"percent": 40} as often as it rises, and last what
-// FilmResult has, or {"error": why}. Texts are bytes, as names of files are.
+// A message is an object in MessagePack after its length, a uint32_t. The first one is the job:
+// what FilmJob has besides the film. The process answers {"percent": 40} as often as it rises, and
+// last what FilmResult has, or {"error": why}. Texts are bytes, as names of files are.
+
+/// Returns false when the other end is closed.
+bool send_message(int socket, const Json& message) {
+  std::string bytes;
+  Json::to_msgpack(message, bytes);
+  const auto length = static_cast<uint32_t>(bytes.size());
+  bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
+  for (size_t at = 0; at < bytes.size();) {
+    const ssize_t sent = uninterrupted(
+        [&] { return send(socket, bytes.data() + at, bytes.size() - at, MSG_NOSIGNAL); });
+    if (sent <= 0) return false;
+    at += static_cast<size_t>(sent);
+  }
+  return true;
+}
+
+bool read_whole(int socket, char* bytes, size_t size) {
+  while (size > 0) {
+    const ssize_t got = uninterrupted([&] { return read(socket, bytes, size); });
+    if (got <= 0) return false;
+    bytes += got;
+    size -= static_cast<size_t>(got);
+  }
+  return true;
+}
+
+/// Nothing when the other end is closed.
+std::optional<Json> next_message(int socket) {
+  uint32_t length = 0;
+  if (!read_whole(socket, reinterpret_cast<char*>(&length), sizeof length)) return std::nullopt;
+  std::string bytes(length, '\0');
+  if (!read_whole(socket, bytes.data(), length)) return std::nullopt;
+  return Json::from_msgpack(bytes);
+}
 
 // --- the process that has the list of films
 
-/// A pipe of which the other end is the process of a film.
-class Answers {
- public:
-  Answers() {
-    if (pipe2(ends_, O_CLOEXEC) != 0) fail(errno);
+/// Sockets of this process and of one that reads a film.
+struct Sockets {
+  Sockets() {
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno);
   }
-  ~Answers() {
-    close(ends_[0]);
-    close_end();
+  ~Sockets() {
+    close(ends[0]);
+    close_other();
   }
-  Answers(const Answers&) = delete;
-  Answers& operator=(const Answers&) = delete;
+  Sockets(const Sockets&) = delete;
+  Sockets& operator=(const Sockets&) = delete;
 
   [[noreturn]] static void fail(int error) {
     throw std::runtime_error(std::string("the system gives no process to read it: ") +
                              std::strerror(error));
   }
-  int end() const { return ends_[1]; }
-  /// Of the process.
-  void close_end() {
-    if (ends_[1] >= 0) close(ends_[1]);
-    ends_[1] = -1;
-  }
-  /// Gives all answers until the process has ended.
-  void read(const std::function<void(const Json& answer)>& take) const {
-    std::string unread;
-    char bytes[4096];
-    for (;;) {
-      const ssize_t got = uninterrupted([&] { return ::read(ends_[0], bytes, sizeof bytes); });
-      if (got <= 0) return;
-      unread.append(bytes, static_cast<size_t>(got));
-      for (uint32_t length = 0; unread.size() >= sizeof length;) {
-        std::memcpy(&length, unread.data(), sizeof length);
-        if (unread.size() < sizeof length + length) break;
-        take(Json::from_msgpack(unread.substr(sizeof length, length)));
-        unread.erase(0, sizeof length + length);
-      }
-    }
+  void close_other() {
+    if (ends[1] >= 0) close(std::exchange(ends[1], -1));
   }
 
- private:
-  int ends_[2] = {-1, -1};
+  int ends[2] = {-1, -1};
 };
-
-/// A file in memory.
-class JobFile {
- public:
-  explicit JobFile(const FilmJob& job) {
-    std::string text;
-    Json::to_msgpack({{"track", job.track},
-                      {"is_summarised", job.is_summarised},
-                      {"settings", job.properties.settings},
-                      {"properties", job.properties.values}},
-                     text);
-    if (descriptor_ < 0 ||
-        pwrite(descriptor_, text.data(), text.size(), 0) != static_cast<ssize_t>(text.size())) {
-      const int error = errno;
-      if (descriptor_ >= 0) close(descriptor_);
-      Answers::fail(error);
-    }
-  }
-  ~JobFile() { close(descriptor_); }
-  JobFile(const JobFile&) = delete;
-  JobFile& operator=(const JobFile&) = delete;
-
-  int descriptor() const { return descriptor_; }
-
- private:
-  const int descriptor_ = memfd_create("spidartrack job", MFD_CLOEXEC);
-};
-
-pid_t start_process(const FilmJob& job, int answers, int part) {
-  const JobFile file(job);
-  std::vector<std::pair<int, int>> files{{answers, answers},
-                                         {file.descriptor(), file.descriptor()}};
-  if (part != kNoPart) files.emplace_back(part, part);
-  const pid_t process =
-      start_child(own_program(),
-                  {"spidartrack", kMark, std::to_string(getpid()), std::to_string(answers),
-                   std::to_string(part), std::to_string(file.descriptor()), job.film},
-                  files, 0);
-  if (process < 0) Answers::fail(errno);
-  return process;
-}
 
 /// Returns when the process has ended. Throws std::runtime_error, unless it ended by itself.
 void await_end(pid_t process) {
@@ -260,17 +233,28 @@ void await_end(pid_t process) {
 }
 
 FilmResult run(const FilmJob& job, int part, const std::function<void(int percent)>& tell) {
-  Answers answers;
-  const pid_t process = start_process(job, answers.end(), part);
-  answers.close_end();
+  Sockets sockets;
+  const auto [own, other] = sockets.ends;
+  std::vector<std::pair<int, int>> files{{other, other}};
+  if (part != kNoPart) files.emplace_back(part, part);
+  const pid_t process = start_child(own_program(),
+                                    {"spidartrack", kMark, std::to_string(getpid()),
+                                     std::to_string(other), std::to_string(part), job.film},
+                                    files, 0);
+  if (process < 0) Sockets::fail(errno);
+  sockets.close_other();
+  send_message(own, {{"track", job.track},
+                     {"is_summarised", job.is_summarised},
+                     {"settings", job.properties.settings},
+                     {"properties", job.properties.values}});
   Json last = {{"error", "the process that read it ended without a result"}};
-  answers.read([&](const Json& answer) {
-    if (answer.contains("percent")) {
-      tell(answer["percent"]);
+  while (const std::optional<Json> answer = next_message(own)) {
+    if (answer->contains("percent")) {
+      tell((*answer)["percent"]);
     } else {
-      last = answer;
+      last = *answer;
     }
-  });
+  }
   await_end(process);
   if (last.contains("error")) throw std::runtime_error(last["error"].get<std::string>());
   return {last["felt"], last["remark"], last["other"], last["is_by_others"], last["summary"]};
@@ -278,17 +262,8 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
 
 // --- the process of a film
 
-void say(int descriptor, const Json& answer) {
-  std::string bytes;
-  Json::to_msgpack(answer, bytes);
-  const auto length = static_cast<uint32_t>(bytes.size());
-  bytes.insert(0, reinterpret_cast<const char*>(&length), sizeof length);
-  for (size_t at = 0; at < bytes.size();) {
-    const ssize_t written =
-        uninterrupted([&] { return write(descriptor, bytes.data() + at, bytes.size() - at); });
-    if (written <= 0) _exit(kFailed);  // nobody waits for it
-    at += static_cast<size_t>(written);
-  }
+void say(int socket, const Json& answer) {
+  if (!send_message(socket, answer)) _exit(kFailed);  // nobody waits for it
 }
 
 /// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
@@ -332,15 +307,6 @@ int number_of_descriptor(const char* text) {
   return descriptor;
 }
 
-FilmJob read_job(int descriptor, const char* film) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> file(fdopen(descriptor, "r"), std::fclose);
-  const Json job = Json::from_msgpack(file.get());
-  return {film,
-          job["track"],
-          {job["properties"].get<decltype(RecordProperties::values)>(), job["settings"]},
-          job["is_summarised"]};
-}
-
 }  // namespace
 
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
@@ -357,10 +323,16 @@ int run_film_process(int argc, char** argv) {
   // It ends with its parent, also when that is killed; signals that end the parent are blocked.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
-  const int answers = number_of_descriptor(argv[kAnswers]);
+  const int socket = number_of_descriptor(argv[kSocket]);
   const int descriptor = number_of_descriptor(argv[kPart]);
   try {
-    const FilmJob job = read_job(number_of_descriptor(argv[kJob]), argv[kFilm]);
+    const std::optional<Json> sent = next_message(socket);
+    if (!sent) return kFailed;
+    const FilmJob job{
+        argv[kFilm],
+        (*sent)["track"],
+        {(*sent)["properties"].get<decltype(RecordProperties::values)>(), (*sent)["settings"]},
+        (*sent)["is_summarised"]};
     gst_init(nullptr, nullptr);
     std::string recorded = job.track;
     FilmResult result;
@@ -369,19 +341,19 @@ int run_film_process(int argc, char** argv) {
     } else {
       const PartFile part(job.track, descriptor);
       recorded = part.path();
-      result = record_film(job.film, part, job.properties, [answers](int percent) {
-        say(answers, {{"percent", percent}});
+      result = record_film(job.film, part, job.properties, [socket](int percent) {
+        say(socket, {{"percent", percent}});
       });
     }
     const bool is_summarised = job.is_summarised && result.other.empty();
-    say(answers, {{"felt", result.felt},
-                  {"remark", result.remark},
-                  {"other", result.other},
-                  {"is_by_others", result.is_by_others},
-                  {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
+    say(socket, {{"felt", result.felt},
+                 {"remark", result.remark},
+                 {"other", result.other},
+                 {"is_by_others", result.is_by_others},
+                 {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
     return kDone;
   } catch (const std::exception& error) {
-    say(answers, {{"error", error.what()}});
+    say(socket, {{"error", error.what()}});
     return kFailed;
   }
 }

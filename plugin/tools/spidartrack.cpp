@@ -111,8 +111,8 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
   }
   int record() {
     if (!to_.empty()) refuse_output(films_.front(), to_);
-    // Of a film, the part file and both ends of a pipe are open, and one more while its process
-    // begins; besides them, the manifest and what libraries open.
+    // Of a film, the part file and both sockets of its process are open, and one more while a file
+    // or folder beside it is read; besides them, the manifest and what libraries open.
     constexpr rlim_t kOfFilm = 4, kOthers = 32;
     const rlim_t films = std::max(descriptors_, kOthers + kOfFilm) - kOthers;
     record_.jobs = static_cast<unsigned>(std::min<rlim_t>(record_.jobs, films / kOfFilm));

@@ -61,7 +61,7 @@ struct OutputFile {
   bool force = false;
 
   explicit operator bool() const noexcept { return !path.empty(); }
-  /// Throws ProfileError when the file cannot be written, or exists and may not be replaced. Call
+  /// Throws std::runtime_error if the file cannot be written, or exists and is not replaced. Call
   /// this before the device moves, so that it does not move in vain.
   void check() const;
 };

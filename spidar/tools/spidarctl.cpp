@@ -2,9 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
 #include <atomic>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <termios.h>
@@ -12,13 +10,13 @@
 #include <vector>
 
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/part_file.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"
 #include "spidar/tools/device_command.h"
-#include "spidar/whole_file.h"
 
 namespace spidar::tools {
 namespace {
@@ -159,17 +157,7 @@ bool may_move(const std::string& device, bool yes, const std::string& question) 
 }
 
 void OutputFile::check() const {
-  if (path.empty()) return;
-  expect_not_read(path);
-  const std::filesystem::path parent = std::filesystem::absolute(path).parent_path();
-  if (access(parent.c_str(), W_OK) != 0) {
-    throw ProfileError(path + ": cannot be written: " + parent.string() + ": " +
-                       std::strerror(errno));
-  }
-  std::error_code error;
-  if (!force && std::filesystem::exists(path, error)) {
-    throw ProfileError(path + ": exists; name another file, or replace it with --force");
-  }
+  if (!path.empty()) PartFile(path, {force, {}});
 }
 
 }  // namespace spidar::tools
