@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What a hand was shaken counts in the next program, too.
+/// The vibration that a hand has received limits the force of the next program too.
 #include <csignal>
 #include <fcntl.h>
 #include <pwd.h>
