@@ -42,7 +42,7 @@ namespace spidar::tools {
 
 namespace {
 
-/// Which file it is, and how it was left.
+/// The identity of a file, and its last change.
 bool is_same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino && a.st_size == b.st_size &&
          a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
@@ -54,7 +54,7 @@ GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
   GstSegment segment;
   gst_event_copy_segment(event, &segment);
   if (segment.format != GST_FORMAT_TIME || segment.time <= segment.base) return GST_PAD_PROBE_OK;
-  // As much as possible by an earlier beginning, so that the track begins with the film.
+  // The segment begins as early as possible, so that the track begins with the film.
   const GstClockTime earlier = std::min(segment.start, segment.time - segment.base);
   segment.start -= earlier;
   segment.time -= earlier;
@@ -66,8 +66,8 @@ GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
   return GST_PAD_PROBE_OK;
 }
 
-/// Moves the segments that pass `pad` so that running time is stream time, which the track is found
-/// by when it is replayed. They differ where a film does not begin at 0: MPEG-TS, MPEG-PS, FLV.
+/// Moves the segments that pass `pad` so that running time is stream time, by which a replay finds
+/// the track. They differ where a film does not begin at 0: MPEG-TS, MPEG-PS, FLV.
 void follow_stream_time(GstPad* pad) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
 }
@@ -81,7 +81,7 @@ void tag(GstElement* extract, const tracks::Notes& notes) {
 
 /// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
 /// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
-/// is called in another thread with the percentage that is done, whenever it rises. Throws
+/// is called in another thread with the percentage of the work, whenever it rises. Throws
 /// std::runtime_error.
 FilmResult record_film(const std::string& film, const PartFile& track,
                        const RecordProperties& properties,
@@ -139,16 +139,16 @@ constexpr int kNoPart = -1;
 enum Argument {
   kProgram,
   kMarkArgument,
-  kParent,  // its process
+  kParent,  // process id
   kSocket,  // descriptors
   kPart,
-  kFilm,  // also for people who look at a list of processes
+  kFilm,  // also for people who read a list of processes
   kArguments
 };
 
-// A message is an object in MessagePack after its length, a uint32_t. The first one is the job:
-// what FilmJob has besides the film. The process answers {"percent": 40} as often as it rises, and
-// last what FilmResult has, or {"error": why}. Texts are bytes, as names of files are.
+// A message is its length, a uint32_t, and an object in MessagePack. The first message is the job:
+// what FilmJob has besides the film. The process answers {"percent": 40} as often as the percentage
+// rises, and last what FilmResult has, or {"error": why}. Texts are bytes, as file names are.
 
 /// Returns false when the other end is closed.
 bool send_message(int socket, const Json& message) {
@@ -175,7 +175,7 @@ bool read_whole(int socket, char* bytes, size_t size) {
   return true;
 }
 
-/// Nothing when the other end is closed.
+/// Returns nothing when the other end is closed.
 std::optional<Json> next_message(int socket) {
   uint32_t length = 0;
   if (!read_whole(socket, reinterpret_cast<char*>(&length), sizeof length)) return std::nullopt;
@@ -186,7 +186,7 @@ std::optional<Json> next_message(int socket) {
 
 // --- the process that has the list of films
 
-/// Sockets of this process and of one that reads a film.
+/// The sockets of this process and of the process that reads a film.
 struct Sockets {
   Sockets() {
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) fail(errno);
@@ -266,8 +266,8 @@ void say(int socket, const Json& answer) {
   if (!send_message(socket, answer)) _exit(kFailed);  // nobody waits for it
 }
 
-/// What the track says of itself: duration_s, felt (the fraction of the time with a force that can
-/// be felt), largest_force_N, fingerprint and settings.
+/// The statements of the track about itself: duration_s, felt (the fraction of the time with a
+/// force that can be felt), largest_force_N, fingerprint and settings.
 Json summary_of(const std::string& track) {
   tracks::Summariser summariser;
   const TrackCondition condition =
@@ -280,7 +280,7 @@ Json summary_of(const std::string& track) {
           {"settings", condition.notes.settings.value_or("")}};
 }
 
-/// Of an existing track. Throws std::runtime_error.
+/// Examines an existing track. Throws std::runtime_error.
 FilmResult compare(const std::string& film, const std::string& track, const std::string& settings) {
   const std::string again = "; --force records it again";
   FilmResult result;
@@ -300,7 +300,7 @@ FilmResult compare(const std::string& film, const std::string& track, const std:
   return result;
 }
 
-/// Its descriptors are of this process alone.
+/// Reads the number of a descriptor, which no child of this process inherits.
 int number_of_descriptor(const char* text) {
   const int descriptor = std::atoi(text);
   if (descriptor >= 0) fcntl(descriptor, F_SETFD, FD_CLOEXEC);
@@ -320,7 +320,8 @@ FilmResult check_in_process(const FilmJob& job) {
 
 int run_film_process(int argc, char** argv) {
   if (argc != kArguments || std::strcmp(argv[kMarkArgument], kMark) != 0) return -1;
-  // It ends with its parent, also when that is killed; signals that end the parent are blocked.
+  // This process ends with its parent, even if the parent is killed, and blocks the signals that
+  // end the parent.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
   const int socket = number_of_descriptor(argv[kSocket]);

@@ -29,10 +29,10 @@ namespace {
 using namespace spidar;
 using namespace spidar::tools;
 
-/// The command line. Of each command, run() is called when it is parsed.
+/// The command line. The run() of each command is called when the command is parsed.
 class CommandLine {
  public:
-  /// `descriptors` are as many as the program may have open.
+  /// `descriptors` is how many the program may have open.
   explicit CommandLine(rlim_t descriptors) : descriptors_(descriptors) {
     app_.set_help_flag("-h,--help", "Explain the program or the command, and end");
     app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION, "Print the version, and end");
@@ -49,10 +49,10 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// Throws CLI::ParseError, and what a command throws.
+  /// Throws CLI::ParseError, and the exceptions of the commands.
   int run(int argc, char** argv) {
     char** const end = argv + argc;
-    // What follows "--" are properties, not options.
+    // The arguments after "--" are properties, not options.
     const std::string command = argc > 1 ? argv[1] : "";
     char** const dashes = command == "record" || command == "show" || command == "export"
                               ? std::find(argv + 1, end, std::string("--"))
@@ -107,7 +107,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
                     "is in its track")
         ->type_name("FILE");
     app->add_flag("--force", record_.force, "record films again that have a track, and replace it");
-    app->add_option("-o,--output", to_)->group("");  // as other programs have it
+    app->add_option("-o,--output", to_)->group("");  // as in other programs
   }
   int record() {
     if (!to_.empty()) refuse_output(films_.front(), to_);
@@ -120,7 +120,6 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
     return record_films(record_);
   }
 
-  /// The arguments of commands that read a track.
   void add_track(CLI::App* app, const char* name, std::string& path) {
     app->add_option(name, path, "a haptic track, or a film with one inside it or beside it")
         ->required()
@@ -137,7 +136,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
         ->type_name("FOLDER");
   }
 
-  /// Names the folder for all that looks for a track.
+  /// Names the folder for every search of a track.
   void search_folder() const {
     if (track_folder_.empty()) return;
     const char* const others = secure_getenv(kTrackPathVariable);
@@ -253,7 +252,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
                      with_rules(parse_record_properties(properties_, 1), film_));
   }
 
-  /// Properties without dashes, or what nothing is known of.
+  /// Refuses properties without dashes, and unknown words.
   void refuse_misplaced(const std::string& command) const {
     for (const std::string& word : misplaced_) expect_no_property(word, command);
     if (!misplaced_.empty()) throw CLI::ExtrasError(misplaced_);
@@ -300,7 +299,7 @@ FILM is then analysed with them:
   RecordOptions record_;
   std::vector<std::string> films_, properties_, misplaced_;
   std::string track_folder_;
-  // Of info, check, plot and show.
+  // Used by info, check, plot and show.
   std::string track_, png_, film_, to_;
   bool json_ = false, force_ = false, draws_subtitles_ = false;
   double max_force_N_ = kDefaultForce_N, max_torque_Nm_ = kDefaultTorque_Nm;  ///< of spidarsink
@@ -309,8 +308,8 @@ FILM is then analysed with them:
   int status_ = kDone;
 };
 
-/// GStreamer reads and writes files in threads for which the 128 KiB that musl gives by default, or
-/// a low limit of the stack, are not enough.
+/// GStreamer reads and writes files in threads that need more stack than the 128 KiB of musl's
+/// default, or than a low limit.
 void request_stacks() {
   constexpr size_t kEnough_bytes = size_t{1} << 20;
   pthread_attr_t attributes;
@@ -340,7 +339,7 @@ int main(int argc, char** argv) {
     return kFailed;
   }
   gst_init(nullptr, nullptr);
-  find_own_plugins({"spidar"});  // what needs it says so
+  find_own_plugins({"spidar"});  // commands that need it report the error
   CommandLine line(descriptors);
   return exit_status_of(line.program(), [&] { return line.run(argc, argv); });
 }
