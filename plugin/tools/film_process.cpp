@@ -320,8 +320,8 @@ FilmResult check_in_process(const FilmJob& job) {
 
 int run_film_process(int argc, char** argv) {
   if (argc != kArguments || std::strcmp(argv[kMarkArgument], kMark) != 0) return -1;
-  // This process ends with its parent, even if the parent is killed, and blocks the signals that
-  // end the parent.
+  // This process ends with its parent, even if the parent is killed. It inherits a mask that blocks
+  // the signals that end the parent.
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != std::atoi(argv[kParent])) return kFailed;
   const int socket = number_of_descriptor(argv[kSocket]);
