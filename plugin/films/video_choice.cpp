@@ -25,10 +25,10 @@ int mark_of(GstPad* pad) {
 }  // namespace
 
 void VideoChoice::watch(GstElement* decoder) {
-  g_signal_connect(decoder, "autoplug-continue", G_CALLBACK(look), this);
+  g_signal_connect(decoder, "autoplug-continue", G_CALLBACK(may_continue), this);
 }
 
-gboolean VideoChoice::look(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {
+gboolean VideoChoice::may_continue(GstElement*, GstPad* pad, GstCaps* caps, gpointer user) {
   auto& self = *static_cast<VideoChoice*>(user);
   if (!is_picture(caps)) return TRUE;
   const std::lock_guard<std::mutex> lock(self.mutex_);

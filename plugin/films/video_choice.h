@@ -31,7 +31,7 @@ class VideoChoice {
   GstPad* choose(GstElement* decoder);
 
  private:
-  static gboolean look(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
+  static gboolean may_continue(GstElement* decoder, GstPad* pad, GstCaps* caps, gpointer self);
   int rank(GstPad* pad) const;
 
   const Rule rule_;

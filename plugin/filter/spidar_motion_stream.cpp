@@ -98,7 +98,7 @@ static GstFlowReturn gst_spidar_motion_transform_frame_ip(GstVideoFilter* filter
   const bool processed = state.warnings.guard("analysing a frame", [&] {
     complete_settings(state, *frame);
     const auto frame_ns = static_cast<gint64>(spidar::nominal_duration(frame->info));
-    state.track.take_loaded(frame_ns, settings.analyzer.feel != nullptr);
+    state.track.use_loaded(frame_ns, settings.analyzer.feel != nullptr);
     state.display.show(state.process(*frame, GST_BASE_TRANSFORM(filter)->segment), settings,
                        *frame);
   });

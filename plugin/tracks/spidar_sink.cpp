@@ -275,10 +275,10 @@ static GstFlowReturn gst_spidar_sink_render(GstBaseSink* sink, GstBuffer* buffer
   self->state->samples = self->state->input.samples();
   GST_OBJECT_UNLOCK(self);
   if (g_atomic_int_exchange(&self->state->wants_no_sync, FALSE)) {
-    self->state->track_warnings.tell_of_sync();
+    self->state->track_warnings.warn_of_sync();
   }
   if (is_felt) self->state->track_warnings.check(self->state->input.faults(), has_time);
-  if (!is_felt) self->state->track_warnings.tell_of_mark();
+  if (!is_felt) self->state->track_warnings.warn_of_missing_mark();
   const spidar::OnDeviceError policy = properties.on_device_error;
   if (!self->state->warnings.check(self->state->output.session(), policy)) return GST_FLOW_ERROR;
   return flow;

@@ -13,7 +13,7 @@
 
 namespace spidar::tracks {
 
-void Warnings::tell_of_mark() {
+void Warnings::warn_of_missing_mark() {
   if (std::exchange(unmarked_, true)) return;
   GST_ELEMENT_WARNING(
       element_, STREAM, WRONG_TYPE,
@@ -24,7 +24,7 @@ void Warnings::tell_of_mark() {
       ("Sound for ears would push and pull the hand."));
 }
 
-void Warnings::tell_of_sync() {
+void Warnings::warn_of_sync() {
   GST_ELEMENT_WARNING(element_, RESOURCE, SETTINGS,
                       ("sync=false has no effect: each sample of a haptic track is felt at its "
                        "time, at base time + "

@@ -18,9 +18,9 @@ class Warnings {
   /// Begins a stream: every warning may be posted again.
   void start() { *this = Warnings(element_); }
   /// Warns that nothing marks the stream as a haptic track, so that it is not rendered.
-  void tell_of_mark();
+  void warn_of_missing_mark();
   /// Warns that sync=false was set.
-  void tell_of_sync();
+  void warn_of_sync();
   /// Checks the faults so far, and whether the last buffer had a time at which to render it. `path`
   /// is that of the track, if it is a file.
   void check(const Faults& faults, bool has_time, const std::string& path = "");

@@ -49,8 +49,8 @@ class Film {
   int64_t next_ns_ = 0, begin_ns_ = 0;
 };
 
-window::Observation object(uint32_t id, double first_s, const Vector2d& position) {
-  window::Observation made;
+window::SeenObject object(uint32_t id, double first_s, const Vector2d& position) {
+  window::SeenObject made;
   made.id = id;
   made.first_ns = static_cast<int64_t>(first_s * 1e9);
   made.first_position = position;
@@ -214,7 +214,7 @@ TEST_F(Choices, NeedATimeInTheFilm) {
   choices.update({});
   choices.choose(object(1, 0, {0.25, 0.5}));
   film.play(0, 1, {1});
-  choices.choose(window::Observation());
+  choices.choose(window::SeenObject());
   EXPECT_TRUE(choices.edits().empty());
 }
 
@@ -235,41 +235,41 @@ DrawnFrame seen(double at_s, double scene_s, const std::vector<uint32_t>& object
   return report;
 }
 
-TEST(Observations, AreTheFirstOfTheScene) {
-  window::Observations observations;
-  observations.update(seen(0, 0, {1}));
-  observations.update(seen(1, 0, {1, 2}));
-  ASSERT_TRUE(observations.find(1) && observations.find(2));
-  EXPECT_EQ(observations.find(1)->first_ns, 0);
-  EXPECT_EQ(observations.find(1)->first_position, Vector2d(0.5, 0.25));
-  EXPECT_EQ(observations.find(2)->first_ns, kSecond);
-  EXPECT_EQ(observations.find(3), nullptr);
-  observations.update(seen(2.9, 0, {}));
-  EXPECT_TRUE(observations.find(1)) << "it may be hidden";
-  observations.update(seen(3.1, 0, {}));
-  EXPECT_EQ(observations.find(1), nullptr);
-  observations.update(seen(3.2, 0, {4}));
-  observations.update(seen(3.3, 3.3, {4}));
-  EXPECT_EQ(observations.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
+TEST(SeenObjects, AreTheFirstOfTheScene) {
+  window::SeenObjects seen_objects;
+  seen_objects.update(seen(0, 0, {1}));
+  seen_objects.update(seen(1, 0, {1, 2}));
+  ASSERT_TRUE(seen_objects.find(1) && seen_objects.find(2));
+  EXPECT_EQ(seen_objects.find(1)->first_ns, 0);
+  EXPECT_EQ(seen_objects.find(1)->first_position, Vector2d(0.5, 0.25));
+  EXPECT_EQ(seen_objects.find(2)->first_ns, kSecond);
+  EXPECT_EQ(seen_objects.find(3), nullptr);
+  seen_objects.update(seen(2.9, 0, {}));
+  EXPECT_TRUE(seen_objects.find(1)) << "it may be hidden";
+  seen_objects.update(seen(3.1, 0, {}));
+  EXPECT_EQ(seen_objects.find(1), nullptr);
+  seen_objects.update(seen(3.2, 0, {4}));
+  seen_objects.update(seen(3.3, 3.3, {4}));
+  EXPECT_EQ(seen_objects.find(4)->first_ns, static_cast<int64_t>(3.3e9)) << "after a cut";
 }
 
-TEST(Observations, AreForgottenWithASeekAndGoOnAfterAGap) {
-  window::Observations observations;
-  observations.update(seen(1, 0, {1}));
+TEST(SeenObjects, AreForgottenWithASeekAndGoOnAfterAGap) {
+  window::SeenObjects seen_objects;
+  seen_objects.update(seen(1, 0, {1}));
   DrawnFrame later = seen(2.5, 0, {1});
-  observations.update(later);
-  EXPECT_EQ(observations.find(1)->first_ns, kSecond) << "a gap in the film";
+  seen_objects.update(later);
+  EXPECT_EQ(seen_objects.find(1)->first_ns, kSecond) << "a gap in the film";
   ++later.stamp.epoch;
-  observations.update(later);
-  EXPECT_EQ(observations.find(1)->first_ns, later.stamp.stream_ns) << "to the same frame";
+  seen_objects.update(later);
+  EXPECT_EQ(seen_objects.find(1)->first_ns, later.stamp.stream_ns) << "to the same frame";
 }
 
-TEST(Observations, PlacesAreThoseOfThePictureAsItIsShown) {
+TEST(SeenObjects, PlacesAreThoseOfThePictureAsItIsShown) {
   DrawnFrame report = seen(1, 0, {1});
   report.turn = Orientation(1);
-  window::Observations observations;
-  observations.update(report);
-  EXPECT_LT((observations.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
+  window::SeenObjects seen_objects;
+  seen_objects.update(report);
+  EXPECT_LT((seen_objects.find(1)->first_position - Vector2d(0.75, 0.75)).norm(), 1e-12);
 }
 
 DrawnFrame moment(double now_s, double length_s, const std::string& path = "/film.avi") {

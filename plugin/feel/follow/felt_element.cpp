@@ -12,7 +12,7 @@
 
 namespace spidar::follow {
 
-void tell(const std::string& text) {
+void print_message(const std::string& text) {
   constexpr size_t kMax = 1000;
   const std::string shown =
       text.size() <= kMax ? text

@@ -14,7 +14,7 @@ namespace spidar::follow {
 
 /// Prints a text for people, shortened because its names and addresses come from other programs,
 /// which may send megabytes. Any thread.
-void tell(const std::string& text);
+void print_message(const std::string& text);
 
 /// Throws std::runtime_error, which says what is wrong with the line.
 GstElement* parse_pipeline(const std::string& line);

@@ -72,7 +72,7 @@ class FollowedFilm {
     while (GstMessage* const message = gst_bus_pop(bus.get())) {
       const std::string text = text_for_people(message);
       // Elements report one fault in several messages.
-      if (!failed_ && !text.empty() && said_.insert(text).second) tell(text);
+      if (!failed_ && !text.empty() && said_.insert(text).second) print_message(text);
       is_simulated_ = says_simulated(message).value_or(is_simulated_);
       if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
       if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_REQUEST_STATE) {
@@ -253,7 +253,7 @@ class FollowedFilm {
   }
 
   void play(int64_t now_ns, int64_t position_ns) {
-    if (!begins_.empty()) tell(begins_);
+    if (!begins_.empty()) print_message(begins_);
     begins_.clear();
     set_base_time(now_ns - running_at(position_ns));
     playing_ = true;
@@ -277,7 +277,7 @@ class FollowedFilm {
                            std::max<int64_t>(position_ns, 0), GST_SEEK_TYPE_NONE, 0);
     own_seek_ = gst_event_get_seqnum(event);
     if (gst_element_send_event(pipeline_.get(), event)) return;
-    tell("this film cannot be entered at another place");
+    print_message("this film cannot be entered at another place");
     failed_ = true;
   }
 
@@ -364,11 +364,11 @@ void FilmThread::run() {
       try {
         if (plan) film = std::make_unique<FollowedFilm>(*plan, properties_);
       } catch (const std::runtime_error& error) {
-        tell(plan->name + ": " + error.what());
+        print_message(plan->name + ": " + error.what());
       }
     }
     if (film && !go_to(*film, goal)) {
-      tell("without force until the next film: " + plan->name);
+      print_message("without force until the next film: " + plan->name);
       film.reset();
     }
     const FilmRequest request = film ? film->take_request() : FilmRequest();

@@ -247,7 +247,7 @@ class Follower {
     const bool is_changed = next != followed || gone_;
     if (is_changed && (is_settled || (next && !is_paused))) {
       const PlayerView* const last = gone_ ? &*gone_ : followed ? &views[*followed] : nullptr;
-      tell(say_choice(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
+      print_message(say_choice(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
       has_said_that_it_waits_ = true;
       gone_.reset();
       follow(next ? players[*next] : nullptr);
@@ -279,7 +279,7 @@ class Follower {
 
   void tell_once(const std::string& text) {
     if (said_.size() >= kMaxSaid) said_.clear();
-    if (said_.insert(text).second) tell(text);
+    if (said_.insert(text).second) print_message(text);
   }
 
   void say_why_none(const std::vector<PlayerView>& views, const std::vector<Player*>& players) {
@@ -302,10 +302,11 @@ class Follower {
       }
     }
     if (std::exchange(has_said_that_it_waits_, true)) return;
-    tell(name_.empty()
-             ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
-             : "waits for a player that is called " + name_ +
-                   " in MPRIS and plays a film; mpv needs the package mpv-mpris");
+    print_message(
+        name_.empty()
+            ? "waits for a player that plays a file: VLC, or mpv with the package mpv-mpris"
+            : "waits for a player that is called " + name_ +
+                  " in MPRIS and plays a film; mpv needs the package mpv-mpris");
   }
 
   /// Prints when the player does not report its position, or what is not felt.
@@ -407,7 +408,7 @@ gboolean quit(gpointer loop) {
 }
 
 void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
-  tell("the session bus has ended");
+  print_message("the session bus has ended");
   quit(loop);
 }
 
@@ -466,7 +467,7 @@ int run(const std::string& name, const std::vector<std::string>& properties) {
     has_ended = follower->end();
     if (has_ended) delete follower;
   } else if (!is_interrupted) {
-    tell("there is no session bus, by which players are followed: " + error);
+    print_message("there is no session bus, by which players are followed: " + error);
   }
   // Delayed threads still run.
   if (!has_ended) {

@@ -147,7 +147,7 @@ Player::Player(GDBusConnection* bus, const std::string& bus_name, Told told)
   subscribe(bus_name_.c_str(), kPlayer, "Seeked", kPath, nullptr, take_signal);
   subscribe(kBus, kBus, "NameOwnerChanged", nullptr, bus_name_.c_str(), take_owner);
   timer_ = g_timeout_add(kPoll_ms, poll, this);
-  ask_state();
+  request_state();
 }
 
 Player::~Player() {
@@ -162,18 +162,18 @@ void Player::watch(bool wanted) {
 }
 
 int64_t Player::silent_ns() const {
-  return asked_ns_ == 0 ? 0 : monotonic_now_ns() - asked_ns_;
+  return requested_ns_ == 0 ? 0 : monotonic_now_ns() - requested_ns_;
 }
 
 gboolean Player::poll(gpointer user) {
   auto& self = *static_cast<Player*>(user);
   if (self.is_gone_) return G_SOURCE_CONTINUE;
-  if (self.is_watched_ && self.asked_ns_ == 0) self.ask_position();
-  if (monotonic_now_ns() - self.state_asked_ns_ > kAskState_ns) self.ask_state();
+  if (self.is_watched_ && self.requested_ns_ == 0) self.request_position();
+  if (monotonic_now_ns() - self.state_requested_ns_ > kAskState_ns) self.request_state();
   return G_SOURCE_CONTINUE;
 }
 
-void Player::ask(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
+void Player::call(const char* method, GVariant* parameters, GAsyncReadyCallback take) {
   g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kProperties, method, parameters, nullptr,
                          G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, take, this);
 }
@@ -203,17 +203,17 @@ void Player::take_obedience(GObject* bus, GAsyncResult* result, gpointer user) {
   if (answer.is_refused) self.told_.refusal(self);
 }
 
-void Player::ask_position() {
-  asked_ns_ = monotonic_now_ns();
-  ask("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
+void Player::request_position() {
+  requested_ns_ = monotonic_now_ns();
+  call("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
 }
 
 /// Sends one query at a time, however many changes a player reports.
-void Player::ask_state() {
+void Player::request_state() {
   state_changed_ = state_waits_;
   if (std::exchange(state_waits_, true)) return;
-  state_asked_ns_ = monotonic_now_ns();
-  ask("GetAll", all_of_player(), take_state);
+  state_requested_ns_ = monotonic_now_ns();
+  call("GetAll", all_of_player(), take_state);
 }
 
 /// A player reads its position and then answers, so the position is late, never early.
@@ -221,7 +221,7 @@ void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   auto& self = *static_cast<Player*>(user);
-  self.asked_ns_ = 0;
+  self.requested_ns_ = 0;
   // The player ended before this program listened for its end.
   self.is_gone_ = self.is_gone_ || answer.is_gone;
   GVariant* const reply = answer.reply.get();
@@ -245,7 +245,7 @@ void Player::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   self.state_waits_ = false;
   self.is_gone_ = self.is_gone_ || answer.is_gone;
-  if (std::exchange(self.state_changed_, false)) self.ask_state();
+  if (std::exchange(self.state_changed_, false)) self.request_state();
   auto state = state_in(answer.reply.get());
   if (!state) return;
   self.state_ = std::move(state);
@@ -256,7 +256,7 @@ void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gch
                          const gchar* name, GVariant* parameters, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   if (!g_str_equal(name, "Seeked")) {
-    self.ask_state();  // the signal has only a part of the state
+    self.request_state();  // the signal has only a part of the state
   } else if (self.is_watched_ && g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
     gint64 position_us = 0;
     g_variant_get(parameters, "(x)", &position_us);

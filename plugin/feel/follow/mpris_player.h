@@ -79,9 +79,9 @@ class Player {
                          GVariant* parameters, gpointer self);
   static void take_obedience(GObject* bus, GAsyncResult* result, gpointer self);
   void order(const char* method, GVariant* parameters);
-  void ask(const char* method, GVariant* parameters, GAsyncReadyCallback take);
-  void ask_position();
-  void ask_state();
+  void call(const char* method, GVariant* parameters, GAsyncReadyCallback take);
+  void request_position();
+  void request_state();
 
   GDBusConnection* const bus_;
   const std::string bus_name_;
@@ -93,8 +93,8 @@ class Player {
   bool is_gone_ = false;
   bool is_watched_ = false;
   bool has_position_ = true;
-  int64_t asked_ns_ = 0;  ///< when the position was queried; 0: no query waits
-  int64_t state_asked_ns_ = 0;
+  int64_t requested_ns_ = 0;  ///< when the position was queried; 0: no query waits
+  int64_t state_requested_ns_ = 0;
   bool state_waits_ = false;    ///< whether a query of the state has no answer yet
   bool state_changed_ = false;  ///< whether the state has changed since the query
 };

@@ -75,7 +75,7 @@ class FeltScreen {
   bool check() {
     if (!read_messages()) return false;
     const std::string change = view_.change();
-    if (!change.empty()) follow::tell(change);
+    if (!change.empty()) follow::print_message(change);
     if (view_.has_ended()) return false;
     if (view_.is_shown()) say_what_is_seen();
     return true;
@@ -93,7 +93,7 @@ class FeltScreen {
     const Ref<GstBus> bus(gst_element_get_bus(pipeline_));
     while (GstMessage* const message = gst_bus_pop(bus.get())) {
       const std::string text = follow::text_for_people(message);
-      if (!text.empty() && said_.insert(text).second) follow::tell(text);
+      if (!text.empty() && said_.insert(text).second) follow::print_message(text);
       is_simulated_ = follow::says_simulated(message).value_or(is_simulated_);
       const bool is_over = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR ||
                            GST_MESSAGE_TYPE(message) == GST_MESSAGE_EOS;
@@ -108,7 +108,7 @@ class FeltScreen {
     if (text != last.text) last = {text, now_ns, !text.empty()};
     if (!last.is_due || now_ns - last.since_ns < kBrief_ns) return;
     last.is_due = false;
-    if (std::exchange(told_, text) != text) follow::tell(text);
+    if (std::exchange(told_, text) != text) follow::print_message(text);
   }
 
   /// Returns an empty text while the film is unknown.
@@ -204,7 +204,7 @@ int run(const std::string& what, const std::vector<std::string>& properties) {
     FeltScreen felt(*view, properties);
     GMainLoop* const loop = g_main_loop_new(nullptr, FALSE);
     for (const int number : {SIGINT, SIGTERM, SIGHUP}) g_unix_signal_add(number, quit, loop);
-    follow::tell("looks at " + view->name());
+    follow::print_message("looks at " + view->name());
     Watch watch{loop, &felt};
     const guint timer = g_timeout_add(kTick_ms, tick, &watch);
     g_main_loop_run(loop);
@@ -212,7 +212,7 @@ int run(const std::string& what, const std::vector<std::string>& properties) {
     g_main_loop_unref(loop);
     return 0;
   } catch (const std::exception& error) {
-    follow::tell(error.what());
+    follow::print_message(error.what());
     return 1;
   }
 }

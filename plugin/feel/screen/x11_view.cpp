@@ -354,7 +354,7 @@ Window window_called(Display* display, const std::string& title) {
 Window chosen_window(Display* display, const std::string& what) {
   if (what.empty()) return DefaultRootWindow(display);
   if (what != "ask") return window_called(display, what);
-  follow::tell(
+  follow::print_message(
       "click on the window that is to be felt, or beside all windows for the whole screen");
   const Window clicked = clicked_window(display);
   if (clicked && !is_own(display, clicked)) return clicked;
@@ -380,7 +380,7 @@ std::unique_ptr<View> view_of_x11(const std::string& what) {
   }
   const Window window = chosen_window(connection.get(), what);
   auto view = std::make_unique<X11View>(std::move(connection), window);
-  if (const std::string words = view->first_words(); !words.empty()) follow::tell(words);
+  if (const std::string words = view->first_words(); !words.empty()) follow::print_message(words);
   return view;
 }
 

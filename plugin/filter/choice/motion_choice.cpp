@@ -99,7 +99,7 @@ std::string MotionChoice::seen_text() const {
   return time_text(static_cast<int64_t>(seen_ / GST_MSECOND * GST_MSECOND));
 }
 
-void MotionChoice::tell_of_rule(const FeelRule& rule, Chosen::State state) {
+void MotionChoice::warn_of_rule(const FeelRule& rule, Chosen::State state) {
   if (!told_.emplace(rule.line, state).second) return;
   const std::string position = position_text(rule.position), end = until(rule);
   const char* const name = named_.name.c_str();
@@ -151,7 +151,7 @@ void MotionChoice::tell_of_rule(const FeelRule& rule, Chosen::State state) {
   }
 }
 
-void MotionChoice::tell_of_click(const KeptObject& kept, Chosen::State state) {
+void MotionChoice::warn_of_click(const KeptObject& kept, Chosen::State state) {
   if (state == Chosen::State::kGood) return;
   mouse_.release(kept.click);
   const auto inform = [this](const std::string& text, const char* advice) {
@@ -170,9 +170,9 @@ void MotionChoice::tell_of_click(const KeptObject& kept, Chosen::State state) {
 
 void MotionChoice::check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time) {
   if (choice.is_kept) {
-    tell_of_click(kept, choice.state);
+    warn_of_click(kept, choice.state);
   } else if (choice.rule) {
-    tell_of_rule(*choice.rule, choice.state);
+    warn_of_rule(*choice.rule, choice.state);
   }
   if (GST_CLOCK_TIME_IS_VALID(stream_time)) seen_ = stream_time;
 }

@@ -54,9 +54,9 @@ class MotionChoice {
  private:
   void warn_of_times(GstPad* sink);
   void warn_of_mean(MotionKind motion);
-  void tell_of_rule(const FeelRule& rule, Chosen::State state);
+  void warn_of_rule(const FeelRule& rule, Chosen::State state);
   std::string seen_text() const;
-  void tell_of_click(const KeptObject& kept, Chosen::State state);
+  void warn_of_click(const KeptObject& kept, Chosen::State state);
 
   GstElement* const element_;
   MousePointer mouse_;

@@ -208,7 +208,7 @@ void TrackRenderer::begin_stream(const std::string& track, const std::string& fi
   loader.begin(track, film);
 }
 
-void TrackRenderer::take_loaded(int64_t frame_ns, bool has_rules) {
+void TrackRenderer::use_loaded(int64_t frame_ns, bool has_rules) {
   if (const std::optional<tracks::LoadedTrack> loaded = loader.take()) {
     // The scheduled wrenches of earlier frames stay: some of them may be the end of another film.
     if (auto blocks = felt_.judge(*loaded, frame_ns, has_rules)) {

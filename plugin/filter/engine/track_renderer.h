@@ -66,12 +66,12 @@ class TrackRenderer {
   /// `feed` must outlive this object.
   TrackRenderer(GstElement* element, HapticFeed& feed) : feed_(feed), felt_(element) {}
 
-  /// Begins another film with this property `track`. Frames are analysed until take_loaded() finds
+  /// Begins another film with this property `track`. Frames are analysed until use_loaded() finds
   /// its track. The given samples of the previous film are still rendered: its frames are on their
   /// way to the screen.
   void begin_stream(const std::string& track, const std::string& film);
   /// Call this for each frame, of `frame_ns`, before has_track(). For `has_rules` see FeltTrack.
-  void take_loaded(int64_t frame_ns, bool has_rules);
+  void use_loaded(int64_t frame_ns, bool has_rules);
   /// Whether a track replaces the analysis of frames.
   bool has_track() const { return replay_.has_track(); }
   /// The file of the track; empty: there is none. Any thread.

@@ -141,7 +141,7 @@ bool DebugWindow::is_done() const {
   return glfwWindowShouldClose(window_) != 0;
 }
 
-void DebugWindow::say(const std::string& note) {
+void DebugWindow::show_note(const std::string& note) {
   note_ = note;
   note_until_s_ = now_s() + kNote_s;
 }
@@ -179,7 +179,7 @@ void DebugWindow::read() {
     const bool is_anew = report_.stamp.epoch != epoch_before;
     if (report_.click != click_before_ || is_anew) requested_.reset();
     follow_title();
-    observations_.update(report_);
+    seen_objects_.update(report_);
     follow_choices(film_before);
     // The recorded data belong to the previous stream.
     if (is_anew) timeline_.clear();
@@ -311,7 +311,7 @@ void DebugWindow::save_here() {
   localtime_r(&now, &local);
   std::strftime(path, sizeof path, "spidar-window-%Y%m%d-%H%M%S.png", &local);
   const std::string error = save(path);
-  say(error.empty() ? std::string("saved ") + path : std::string(path) + ": " + error);
+  show_note(error.empty() ? std::string("saved ") + path : std::string(path) + ": " + error);
 }
 
 }  // namespace spidar::window

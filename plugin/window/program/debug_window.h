@@ -63,7 +63,7 @@ class DebugWindow {
   void use_settings(size_t which);
   void toggle_play();
   void follow_title();
-  void say(const std::string& note);
+  void show_note(const std::string& note);
 
   PlayerLink& link_;
   GLFWwindow* window_ = nullptr;
@@ -85,7 +85,7 @@ class DebugWindow {
   uint32_t click_before_ = 0;
   TwoSettings settings_;
   std::string title_;
-  Observations observations_;
+  SeenObjects seen_objects_;
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path
   bool has_clicked_ = false;                     ///< the user knows what a click does
   std::optional<Mouse> given_mouse_;

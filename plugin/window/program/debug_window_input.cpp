@@ -156,8 +156,8 @@ void DebugWindow::follow_choices(const std::string& film_before) {
   if (choices().update(report_) || has_ended) link_.choose(std::nullopt);
   if (const std::optional<int64_t> lost_ns = choices().take_lost()) {
     constexpr int64_t kTenth_ns = 100'000'000;
-    say("The chosen object was lost at " + time_text(*lost_ns / kTenth_ns * kTenth_ns) +
-        "; what the settings say is felt again.");
+    show_note("The chosen object was lost at " + time_text(*lost_ns / kTenth_ns * kTenth_ns) +
+              "; what the settings say is felt again.");
   }
   save_choices(&SceneChoices::has_late_end);
 }
@@ -166,7 +166,7 @@ void DebugWindow::choose(const ChoiceRequest& request) {
   link_.choose(request.position);
   requested_ = request.position ? request.object : 0;
   click_before_ = report_.click;
-  const Observation* const object = observations_.find(request.object);
+  const SeenObject* const object = seen_objects_.find(request.object);
   if (!request.position) {
     choices().undo_last();
   } else if (object) {
@@ -186,7 +186,7 @@ void DebugWindow::save_choices(bool (SceneChoices::*is_due)() const) {
   for (auto& [film, choices] : choices_) {
     if (film.empty() || !(choices.*is_due)()) continue;
     const ChoicesSaved saved = link_.save(film, choices.edits());
-    say(saved.what);
+    show_note(saved.what);
     saved.is_done ? choices.saved() : choices.not_saved();
   }
 }

@@ -65,7 +65,7 @@ void PlayerLink::receive() {
   }
 }
 
-void PlayerLink::ask(std::chrono::milliseconds patience) {
+void PlayerLink::request_frame(std::chrono::milliseconds patience) {
   if (is_over()) return;
   // One request at a time: the answer to an earlier one is as good.
   if (is_answered_ || state_.name.empty()) send(Ask());
@@ -74,7 +74,7 @@ void PlayerLink::ask(std::chrono::milliseconds patience) {
   while (!is_answered_ && !is_over() && wait(until)) receive();
 }
 
-void PlayerLink::rest(std::chrono::milliseconds duration) {
+void PlayerLink::pause(std::chrono::milliseconds duration) {
   const std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + duration;
   while (!is_over() && !wanted_picture_ && wait(until)) receive();
 }

@@ -48,9 +48,9 @@ class PlayerLink {
       : channel_(std::make_shared<Channel>(socket, Channel::kFromPlayer)) {}
 
   /// Requests what to draw next, and waits for the answer, no longer than `patience`.
-  void ask(std::chrono::milliseconds patience);
+  void request_frame(std::chrono::milliseconds patience);
   /// Waits for `duration`, but not when the window must close or write its picture.
-  void rest(std::chrono::milliseconds duration);
+  void pause(std::chrono::milliseconds duration);
 
   /// Whether the player has closed the window, or is gone.
   bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }

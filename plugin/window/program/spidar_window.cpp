@@ -47,20 +47,20 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
     for (const UserInput& input : link.take_inputs()) window.process(input);
     // This comes after the last request, so that the picture contains everything sent before.
     const std::optional<std::string> picture = link.wanted_picture();
-    if (!picture) link.ask(kPatience);
+    if (!picture) link.request_frame(kPatience);
     window.draw();
     if (picture) link.picture_taken(window.save(*picture));
     window.present();
     // Where the processor draws, half of its time remains for others.
     const std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now();
     const std::chrono::steady_clock::duration left = std::max(begin + period - end, end - begin);
-    link.rest(std::chrono::duration_cast<milliseconds>(left));
+    link.pause(std::chrono::duration_cast<milliseconds>(left));
   }
 }
 
 /// Returns the status of the program. The player reports errors on its bus.
 int show(PlayerLink& link) {
-  link.ask(kFirstPatience);
+  link.request_frame(kFirstPatience);
   if (link.is_over()) return link.is_not_understood() ? EXIT_FAILURE : EXIT_SUCCESS;
   if (!glfwInit()) {
     link.cannot_open("The debug window cannot be opened: " + glfw_error() +

@@ -24,27 +24,27 @@ Eigen::Vector2d whole(const Eigen::Vector2d& position) {
 
 }  // namespace
 
-void Observations::update(const DrawnFrame& report) {
+void SeenObjects::update(const DrawnFrame& report) {
   const int64_t now_ns = report.stamp.stream_ns;
   if (!place_.is_continued_by(report)) seen_.clear();
   place_ = {report.film, report.stamp};
   for (const MovingObject& object : report.frame.objects) {
     if (object.points == 0) continue;
     auto known = std::find_if(seen_.begin(), seen_.end(),
-                              [&](const Observation& one) { return one.id == object.id; });
+                              [&](const SeenObject& one) { return one.id == object.id; });
     if (known == seen_.end()) {
       const Eigen::Vector2d position = report.turn.displayed_position(position_of(report, object));
       known = seen_.insert(known, {object.id, now_ns, position, now_ns});
     }
     known->last_ns = now_ns;
   }
-  const auto is_gone = [&](const Observation& one) { return one.last_ns + kForgotten_ns < now_ns; };
+  const auto is_gone = [&](const SeenObject& one) { return one.last_ns + kForgotten_ns < now_ns; };
   seen_.erase(std::remove_if(seen_.begin(), seen_.end(), is_gone), seen_.end());
 }
 
-const Observation* Observations::find(uint32_t id) const {
-  const auto found = std::find_if(seen_.begin(), seen_.end(),
-                                  [&](const Observation& one) { return one.id == id; });
+const SeenObject* SeenObjects::find(uint32_t id) const {
+  const auto found =
+      std::find_if(seen_.begin(), seen_.end(), [&](const SeenObject& one) { return one.id == id; });
   return found == seen_.end() ? nullptr : &*found;
 }
 
@@ -104,7 +104,7 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
   choices_.erase(std::remove_if(choices_.begin(), choices_.end(), is_nothing), choices_.end());
 }
 
-void SceneChoices::choose(const Observation& object) {
+void SceneChoices::choose(const SeenObject& object) {
   if (place_.stamp.stream_ns < 0 || object.first_ns < 0) return;
   const int64_t from_ns = whole(object.first_ns);
   take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });

@@ -30,7 +30,7 @@ struct ScenePlace {
   }
 };
 
-struct Observation {
+struct SeenObject {
   uint32_t id = 0;
   int64_t first_ns = -1;                 ///< in the film; −1: unknown
   Eigen::Vector2d first_position{0, 0};  ///< a fraction of the shown picture
@@ -38,7 +38,7 @@ struct Observation {
 };
 
 /// The objects that were seen in the scene on the screen.
-class Observations {
+class SeenObjects {
  public:
   /// An object that has been invisible for longer is forgotten, because it would return as another.
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
@@ -46,10 +46,10 @@ class Observations {
   /// Takes the next frame on the screen. Another scene or film forgets all objects.
   void update(const DrawnFrame& report);
   /// Returns null for an unknown object.
-  const Observation* find(uint32_t id) const;
+  const SeenObject* find(uint32_t id) const;
 
  private:
-  std::vector<Observation> seen_;
+  std::vector<SeenObject> seen_;
   ScenePlace place_;
 };
 
@@ -68,7 +68,7 @@ class SceneChoices {
 
   /// Chooses `object`, in place of the choice in this scene while the object was visible. Changes
   /// nothing where the time in the film is unknown.
-  void choose(const Observation& object);
+  void choose(const SeenObject& object);
   /// Undoes the last choice in this scene.
   void undo_last();
   /// Removes all rules from one time to another.
