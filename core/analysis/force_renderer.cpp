@@ -7,8 +7,8 @@
 namespace spidar {
 namespace {
 
-/// The id of the object whose motion is felt; 0 when it is none, or not that of one object. An
-/// object that rests is felt as rest.
+/// The id of the object whose motion is felt; 0 if none, or not of a single object. An object at
+/// rest is felt as rest.
 uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) {
   const MovingObject* object = choice.object;
   if (choice.is_free() && kind == MotionKind::kObject) object = frame.dominant_object();
@@ -17,8 +17,8 @@ uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) 
   return is_lost ? 0 : object->id;
 }
 
-/// What is felt, for WrenchFade: another rule is something else, even for the same object, because
-/// its gain may be another.
+/// Identifies for WrenchFade what is felt: another rule is another thing, even for the same object,
+/// because its gain may differ.
 uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   constexpr uint32_t kPicture = UINT32_MAX;
   uint64_t target = object;
@@ -31,7 +31,7 @@ uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   return target;
 }
 
-/// The wrench of a rule, within what the controller may give.
+/// The wrench of a rule, within the limit of the controller.
 Wrench amplified(const Wrench& wrench, double gain, double most_N) {
   const double force_N = size_N(wrench);
   if (gain == 1 || force_N == 0) return wrench;
@@ -166,7 +166,7 @@ void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64
                                               felt.velocity_px_s.norm()));
   const double interval_s = frame.interval_s();
   frame.motion = bound_motion(felt, frame.width(), interval_s);
-  // Neither filter nor washout mixes the motions of two objects.
+  // Neither filter nor washout may mix the motions of two objects.
   if (fade_.turn_to(felt_thing(choice, frame.felt_object))) {
     filter_.reset();
     washout_.reset();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The second half of the analysis: from what moves in the frames to what is felt of it.
 #pragma once
 
 #include <algorithm>
@@ -28,14 +27,13 @@ struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
   AreaSetting area;  ///< in px of the pictures
-  /// Position of the picture where kObjects is felt: (0, 0) is its top left corner, (1, 1) its
+  /// The position in the picture where kObjects is felt: (0, 0) is the top left corner, (1, 1) the
   /// bottom right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
-  /// Rules that take precedence over `motion` where one holds, but not over kMean, which knows no
-  /// objects.
+  /// Rules that replace `motion` while one holds, except kMean, which knows no objects.
   std::shared_ptr<const FeelRules> feel;
-  KeptObject kept;  ///< takes precedence over `feel`
-  /// Boxes that came with this frame; null: none did.
+  KeptObject kept;  ///< has priority over `feel`
+  /// The boxes of this frame; null: none.
   std::shared_ptr<const std::vector<PictureBox>> boxes;
   FilterSettings filter;
   AxisGains axes;
@@ -43,8 +41,7 @@ struct AnalyzerSettings {
   double washout_Hz = 0;  ///< cut-off of Washout, finite and ≥ 0; 0: none
 };
 
-/// Closest to the paper: mean velocity of the points of OpenCvTracker, unfiltered, nonlinear
-/// controller.
+/// Closest to the paper: unfiltered mean velocity of OpenCvTracker's points, nonlinear controller.
 AnalyzerSettings paper_settings();
 
 /// Throws std::invalid_argument when a setting is out of range.
@@ -55,16 +52,15 @@ void validate(const AnalyzerSettings& settings);
 /// at once and in full.
 class WrenchFade {
  public:
-  /// Begins a frame. `object` identifies what is felt in it, by a number that is constant while the
-  /// same is felt; 0: nothing, or the whole picture. Returns whether the last wrench begins to fade
-  /// out.
+  /// Begins a frame. `object` identifies what is felt by a constant number; 0: nothing, or the
+  /// whole picture. Returns whether the last wrench begins to fade out.
   bool turn_to(uint64_t object);
 
   /// The wrench to render in this frame, `interval_s` > 0 after the previous one, if `wrench` is
   /// that of the object.
   Wrench fade(const Wrench& wrench, double interval_s);
 
-  /// After a cut or a seek, and when the picture rests: nothing fades.
+  /// Call this after a cut or a seek, and in a still picture: nothing fades.
   void reset() { *this = WrenchFade(); }
 
   /// Two or three frames of a film; shorter than the 0.15 s or so that a hand needs to react.
@@ -92,21 +88,21 @@ inline Wrench WrenchFade::fade(const Wrench& wrench, double interval_s) {
   return felt_;
 }
 
-/// camera and objects → the motion that is felt → filter → gain controller → washout → wrench.
+/// The second half of the analysis: camera and objects → the motion that is felt → filter → gain
+/// controller → washout → wrench.
 class ForceRenderer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
   explicit ForceRenderer(const AnalyzerSettings& settings);
 
-  /// See MotionAnalyzer::configure(); AnalyzerSettings::tracker does not matter here.
+  /// See MotionAnalyzer::configure(), but without AnalyzerSettings::tracker.
   void configure(const AnalyzerSettings& settings);
 
-  /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order in which they
-  /// are shown, except those that wait, with the `settings` of configure(), the position in the
-  /// film, and how they are turned before they are shown.
+  /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order of display,
+  /// except those that wait, with the `settings` of configure(), the position in the film, and the
+  /// turn before display.
   void render(Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
               const Orientation& turn);
-  /// The next frame follows a seek or a discontinuity.
   void reset();
 
  private:

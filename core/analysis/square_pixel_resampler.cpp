@@ -65,7 +65,7 @@ void to_stored_pixels(Frame& frame, int width) {
       narrow(*along);
     }
     object.area_px2 *= fraction;
-    object.error_px_s *= std::max(fraction, 1.0);  // along the direction in which it is larger
+    object.error_px_s *= std::max(fraction, 1.0);  // in the direction of the larger error
   }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Pictures whose pixels are not square, as DVD, HDV and anamorphic HD store them.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +10,16 @@
 
 namespace spidar {
 
-/// Motion is measured in square pixels, because only there a rotation is a rotation, and a
-/// direction and a speed are those that a viewer sees. The pictures are resampled along their
-/// lines, so that the unit of all lengths remains the distance of two lines.
+/// Resamples pictures whose pixels are not square, as DVD, HDV and anamorphic HD store them. Motion
+/// is measured in square pixels, because only there a rotation is a rotation, and directions and
+/// speeds are those that a viewer sees. The pictures are resampled along their lines, so that the
+/// unit of all lengths remains the distance of two lines.
 class SquarePixelResampler {
  public:
-  /// The picture as if its pixels were square; `picture` itself where they are. `pixel_aspect` > 0
-  /// is width over height of a pixel. Valid until the next call. Allocates only when the size
-  /// changes.
+  /// Returns the picture as if its pixels were square; `picture` itself where they are.
+  /// `pixel_aspect` > 0 is width over height of a pixel. Valid until the next call. Allocates only
+  /// when the size changes.
   ImageView view(const ImageView& picture, double pixel_aspect);
-  /// The width of that picture, at least 1.
   static int width_of(int stored_width, double pixel_aspect);
 
  private:
@@ -28,8 +27,8 @@ class SquarePixelResampler {
   std::vector<uint8_t> resampled_;
 };
 
-/// Converts `frame`, measured in the pixels of SquarePixelResampler, to those of the picture as it
-/// is stored, `width` pixels wide; and `area` of that picture to the pixels of a picture that is
+/// Converts `frame`, measured in the pixels of SquarePixelResampler, to those of the stored
+/// picture, `width` pixels wide; and `area` of that picture to the pixels of a picture that is
 /// `square_width` pixels wide.
 void to_stored_pixels(Frame& frame, int width);
 PicturePart in_square_pixels(const PicturePart& area, int width, int square_width);

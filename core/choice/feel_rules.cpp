@@ -30,7 +30,7 @@ constexpr const char* kAllWords =
   throw FeelRulesError("line " + std::to_string(line) + ": " + what);
 }
 
-/// What a person typed, as a message can show it.
+/// Text from a person, as a message can show it.
 std::string quote(std::string_view text) {
   std::string shown(text.substr(0, kMaxQuoted));
   for (char& c : shown) {
@@ -43,7 +43,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// Seconds, minutes and hours, the last with colons before them.
+/// Parses seconds, minutes and hours, the last with colons before them.
 std::optional<int64_t> time_ns(std::string_view text) {
   double seconds = 0;
   for (int parts = 0;; ++parts) {
@@ -69,12 +69,11 @@ std::optional<Eigen::Vector2d> position_of(std::string_view text) {
   return Eigen::Vector2d(*x, *y);
 }
 
-/// Reads one line.
 class RuleParser {
  public:
   RuleParser(std::string_view text, int line) : text_(text) { rule_.line = line; }
 
-  /// Nothing when the line is empty.
+  /// Returns nothing when the line is empty.
   std::optional<FeelRule> parse() {
     skip_space();
     if (text_.empty()) return std::nullopt;
@@ -104,7 +103,7 @@ class RuleParser {
     skip_space();
     return true;
   }
-  /// All up to the next word that begins with a letter, without spaces.
+  /// Takes everything up to the next word that begins with a letter, without spaces.
   std::string take_numbers() {
     std::string numbers;
     while (!text_.empty() && !is_letter(text_.front())) {
@@ -221,7 +220,7 @@ class RuleParser {
   FeelRule rule_;
 };
 
-/// The name as a rule writes it: in quotes unless it is a word.
+/// The name as a rule writes it: in quotes unless it is a single word.
 std::string name_text(const std::string& name) {
   const bool is_word = name.find_first_of(" \t") == std::string::npos && name != "gain";
   return is_word ? name : '"' + name + '"';
@@ -239,7 +238,7 @@ FeelRules::FeelRules(std::string_view text) {
   for (int line = 1; !text.empty();) {
     const size_t end = text.find_first_of("\n;");
     std::string_view one = text.substr(0, end);
-    // A semicolon in a remark ends nothing.
+    // A semicolon in a comment ends nothing.
     if (one.find('#') != std::string_view::npos) one = text.substr(0, text.find('\n'));
     const int this_line = line;
     line += counts_rules || text.substr(one.size(), 1) == "\n";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Rules, written by a person, of what is felt of a film and when.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +17,8 @@
 
 namespace spidar {
 
-/// One rule. Positions go from (0, 0), the top left corner of the picture as it is shown, to (1,
-/// 1).
+/// One rule, written by a person, of what is felt of a film and when. Positions go from (0, 0), the
+/// top left corner of the shown picture, to (1, 1).
 struct FeelRule {
   enum class Kind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
 
@@ -34,16 +33,15 @@ struct FeelRule {
   Eigen::Vector2d position{0, 0};
   Eigen::Vector2d far_corner{1, 1};  ///< kRegion
   Eigen::Vector2d direction{0, 0};   ///< kFurthest: of length 1
-  /// kBox: the name of the box, zero-terminated; empty when any box is meant. An array, so that
-  /// copies allocate nothing.
+  /// kBox: the name of the box, zero-terminated; empty for any box. An array, so that copies
+  /// allocate nothing.
   std::array<char, kLongestName + 1> name{};
   double gain = 1;  ///< of force and torque, 0 … 10
 
   bool is_about_objects() const { return kind != Kind::kCamera && kind != Kind::kNothing; }
 };
 
-/// An error in the text of rules. The message begins with "line 3: " and is a sentence without a
-/// full stop.
+/// An error in the text of rules. The message is "line 3: " and a sentence without a full stop.
 class FeelRulesError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -67,21 +65,20 @@ class FeelRules {
   const FeelRule* at(int64_t stream_ns) const;
   /// Whether a rule means boxes that come with the frames.
   bool has_boxes() const;
-  /// The rules in one line, in the same form however they were typed.
+  /// The rules in one line, in one form for all ways to type them.
   std::string text() const;
 
  private:
   std::vector<FeelRule> rules_;
 };
 
-/// One rule, as FeelRules::text() writes it.
 std::string rule_text(const FeelRule& rule);
 /// A time as rules write it: "0:12" or "1:02:03.5".
 std::string time_text(int64_t ns);
 /// A position as rules write it: "0.31,0.62".
 std::string position_text(const Eigen::Vector2d& position);
 
-/// A change of the rules: from one time of the film to another, one object is felt, or no rule
+/// A change of the rules: one object is felt from one time of the film to another, or no rule
 /// holds.
 struct FeelEdit {
   int64_t from_ns = 0, to_ns = 0;
@@ -89,10 +86,9 @@ struct FeelEdit {
   std::optional<Eigen::Vector2d> position;
 };
 
-/// Applies `edit` to `rules`, which are in order of time, as is the result. Rules give way to the
+/// Applies `edit` to `rules`, which are in order of time, as is the result. Rules make room for the
 /// edit; of a rule about the object at a position, the part after the edit is dropped, too, because
-/// nobody knows where the object is then. An edit that does not end after it begins changes
-/// nothing.
+/// the object may then be elsewhere. An edit that does not end after it begins changes nothing.
 inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
   if (edit.to_ns <= edit.from_ns) return rules;
   std::vector<FeelRule> result;

@@ -12,7 +12,7 @@ namespace {
 /// The velocities before and after a loss differ by less than this fraction of the faster one.
 constexpr double kSameVelocity = 0.5;
 
-/// How well an object meets the rule. One whose score is higher by 1 takes the place of another.
+/// How well an object meets the rule. An object whose score is higher by 1 replaces another.
 double score(const FeelRule& rule, const MovingObject& object, const ChoiceInput& frame) {
   if (rule.kind == FeelRule::Kind::kLargest) {
     return std::log(std::max(object.area_px2, 1.0)) / std::log(ObjectChoice::kLarger);
@@ -40,8 +40,8 @@ Chosen::State BoxedObject::state() const {
   return has_box_ ? Chosen::State::kBoxAtRest : Chosen::State::kNoBox;
 }
 
-/// The object in sight with the largest intersection over union with the box; null when none
-/// overlaps it enough.
+/// The visible object with the largest intersection over union with the box; null when none
+/// overlaps the box enough.
 const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceInput& frame) const {
   const Eigen::AlignedBox2d box_px = frame.px(box.position, box.far_corner);
   const double box_px2 = area_px2(box_px);
@@ -61,7 +61,7 @@ const MovingObject* BoxedObject::at_box(const PictureBox& box, const ChoiceInput
 }
 
 const MovingObject* BoxedObject::update(const ChoiceInput& frame) {
-  const MovingObject* best = nullptr;  // the object itself, else the largest one
+  const MovingObject* best = nullptr;  // the same object, else the largest one
   missing_s_ += frame.interval_s;
   waited_s_ += frame.interval_s;
   const bool holds = id_ != 0 && missing_s_ <= kHold_s;
@@ -93,7 +93,7 @@ void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
   since_s_ = since_s;
 }
 
-/// Whether an object at the position may be the one that is looked for.
+/// Whether an object at the position may be the wanted one.
 bool FollowedObject::may_be(const MovingObject& object) const {
   if (object.points == 0) return false;
   if (state_ == State::kLooking) return true;
@@ -104,9 +104,9 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// Of the objects that it may be, the one whose box is nearest to the position, and the smallest of
-/// several; null when none is within reach. While it is looked for, objects count where they were
-/// at begin().
+/// Of the possible objects, the one whose box is nearest to the position, and the smallest of
+/// several; null when none is within reach. While searching, objects count where they were at
+/// begin().
 const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
                                                 double reach_px) const {
   const MovingObject* best = nullptr;
@@ -136,7 +136,7 @@ void FollowedObject::follow(const MovingObject& object) {
   rested_ = !hidden_ && object.relative_px_s.isZero(0);
 }
 
-/// It is not among the objects of this frame.
+/// Handles a frame without the object.
 void FollowedObject::miss(double interval_s) {
   missing_s_ += interval_s;
   if (rested_) {
@@ -187,8 +187,7 @@ void ObjectChoice::reset() {
   clicked_ = FollowedObject();
 }
 
-/// Chooses among the objects in sight. The one that is felt stays until another one is clearly
-/// better.
+/// Chooses among the visible objects. The felt object stays until another one is clearly better.
 const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceInput& frame) {
   const MovingObject* now = nullptr;
   const MovingObject* other = nullptr;
@@ -206,7 +205,7 @@ const MovingObject* ObjectChoice::best(const FeelRule& rule, const ChoiceInput& 
   return other;
 }
 
-/// The rule holds from this frame on.
+/// Begins a rule with this frame.
 void ObjectChoice::begin(const FeelRule& rule, const ChoiceInput& frame) {
   rule_ = &rule;
   best_ = 0;
@@ -217,7 +216,7 @@ void ObjectChoice::begin(const FeelRule& rule, const ChoiceInput& frame) {
   boxed_.begin(rule.name.data());
 }
 
-/// The object that was at the position of the rule when that began.
+/// Chooses the object that was at the position of the rule when the rule began.
 void ObjectChoice::by_position(const ChoiceInput& frame, Chosen& choice) {
   if (!seen_from_begin_) {
     choice.state = Chosen::State::kNotSeen;
@@ -243,7 +242,7 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chose
   }
 }
 
-/// False when no click counts, or not yet.
+/// Returns false when no click counts, or not yet.
 bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {

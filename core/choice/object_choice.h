@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Chooses what is felt of a frame: by rules, by boxes from outside, or by a click.
 #pragma once
 
 #include <array>
@@ -21,20 +20,19 @@
 namespace spidar {
 
 /// A box that a detector or a tracker outside this project found in a picture. Corners go from (0,
-/// 0), the top left corner of the picture as it is shown, to (1, 1); a box may lie partly outside.
+/// 0), the top left corner of the shown picture, to (1, 1); a box may lie partly outside.
 struct PictureBox {
-  std::string name;                ///< of what is in it, "face"
+  std::string name;                ///< of its content: "face"
   Eigen::Vector2d position{0, 0};  ///< the corner that is nearer to (0, 0)
   Eigen::Vector2d far_corner{1, 1};
 };
 
 /// An object that is kept because it was clicked.
 struct KeptObject {
-  uint32_t click = 0;              ///< counts the clicks; 0: none is kept
+  uint32_t click = 0;              ///< number of the click; 0: none is kept
   Eigen::Vector2d position{0, 0};  ///< of the click
 };
 
-/// What was chosen for a frame.
 struct Chosen {
   /// Result of a request.
   enum class State {
@@ -42,70 +40,66 @@ struct Chosen {
     kNotThere,   ///< no object was at the position; the first that begins to move there is felt
     kNotSeen,    ///< playback began after the moment at which the object is at the position
     kLost,       ///< the object was followed and is lost
-    kNoBox,      ///< no frame of the rule came with a box that it means
+    kNoBox,      ///< no frame of the rule had a box of that name
     kBoxAtRest,  ///< boxes came, but nothing moves in them
   };
 
-  std::optional<FeelRule> rule;  ///< that holds now; none: none does
+  std::optional<FeelRule> rule;  ///< the rule that holds now; none: none does
   bool is_kept = false;          ///< a click counts, and no rule
   State state = State::kGood;
-  const MovingObject* object = nullptr;  ///< the one that is felt; null when it is not one alone
+  const MovingObject* object = nullptr;  ///< the felt one; null if not a single one
 
   /// Whether neither a rule nor a click counts: the setting `motion` decides what is felt.
   bool is_free() const { return !rule && !is_kept; }
 };
 
-/// What a choice needs to know of a frame. Positions of rules and clicks are those in the picture
-/// as it is shown.
+/// What a choice needs of a frame. Positions of rules and clicks are those in the shown picture.
 struct ChoiceInput {
   const std::vector<MovingObject>& objects;
-  const Background* background;  ///< null when it is not known
+  const Background* background;  ///< null when unknown
   const FilmPlace& place;
-  /// Of the film as it is shown, px.
+  /// The height of the shown film, px.
   int height() const { return turn.is_sideways() ? place.area.width : place.area.height; }
   double interval_s;  ///< since the previous frame; 0 when there is none
   bool is_cut;        ///< nothing in it was in the previous frame
   int64_t stream_ns;  ///< position in the film
   Orientation turn;   ///< of the frame before it is shown
-  const std::vector<PictureBox>* boxes = nullptr;  ///< that came with the frame; null: none
+  const std::vector<PictureBox>* boxes = nullptr;  ///< of the frame; null: none
 
-  /// Converts a position in the picture as it is shown to px from the middle of the film.
+  /// Converts a position in the shown picture to px from the middle of the film.
   Eigen::Vector2d px(const Eigen::Vector2d& position) const {
     return place.film_px(turn.stored_position(position));
   }
-  /// The same for a box with these two corners.
   Eigen::AlignedBox2d px(const Eigen::Vector2d& corner, const Eigen::Vector2d& far_corner) const {
     return Eigen::AlignedBox2d(px(corner)).extend(px(far_corner));
   }
 };
 
 /// Finds the object in a box: a box says which object is meant, the object how it moves. A detector
-/// misses objects in some frames, so the object is kept for a moment without a box. Of several
-/// objects in boxes, the largest is taken; it stays for as long as there is a box around it.
+/// misses objects in some frames, so the object is kept for a moment without a box. The largest of
+/// several objects in boxes is taken; it stays for as long as there is a box around it.
 class BoxedObject {
  public:
-  /// Looks for boxes of this name, or for any when it is empty. `name` must stay valid until the
-  /// next begin().
+  /// Searches boxes of this name, or any box if it is empty. `name` must stay valid until begin().
   void begin(const char* name);
 
   /// Takes the next frame. Returns the object as it is in `frame`; null when none is known.
   const MovingObject* update(const ChoiceInput& frame);
 
-  /// After a cut, when all objects have new ids.
+  /// Call this after a cut, when all objects have new ids.
   void cut() { id_ = 0; }
 
-  /// kNoBox or kBoxAtRest when no box was around an object within kPatience_s of begin(); else
-  /// kGood.
+  /// kNoBox or kBoxAtRest if no box was around an object for kPatience_s after begin(); else kGood.
   Chosen::State state() const;
 
-  /// How long an object is kept without a box: a detector that looks at every tenth frame of 25 a
-  /// second, as they do on slow machines, may miss it once.
+  /// How long an object is kept without a box: a detector that examines every tenth frame of 25 a
+  /// second, as on slow machines, may miss it once.
   static constexpr double kHold_s = 0.8;
   /// How long a new rule may get no box before that is reported.
   static constexpr double kPatience_s = 1;
   /// A box is around an object when at least this fraction of the smaller of the two lies in the
-  /// other: a face is a part of the person who moves, and a leg that moves is a part of the person
-  /// in the box.
+  /// other: a face is a part of a person who moves, and a moving leg a part of the person in the
+  /// box.
   static constexpr double kOverlap = 0.5;
 
  private:
@@ -121,20 +115,20 @@ class BoxedObject {
 
 /// Finds the object that is at a position, and follows its id. ObjectTracker drops an object that
 /// has rested for a while. Where there is no object, or where the followed one came to rest, the
-/// first one that begins to move there is taken. At what looks like a cut, ObjectTracker gives new
-/// ids: an object that soon moves in the same way where the followed one would be is taken for it.
+/// first object that begins to move there is taken. At an apparent cut, ObjectTracker gives new
+/// ids: an object that soon moves in the same way at the expected place counts as the followed one.
 class FollowedObject {
  public:
   enum class State {
-    kLooking,   ///< for what is at the position
-    kWaiting,   ///< nothing was there: for what will begin to move there
-    kFollowed,  ///< in sight, or hidden for a moment
-    kResting,   ///< where it was seen last
-    kLost,      ///< it is not known where it is
+    kLooking,   ///< searches the object at the position
+    kWaiting,   ///< nothing was there: waits for the first motion there
+    kFollowed,  ///< visible, or hidden for a moment
+    kResting,   ///< where it was last seen
+    kLost,      ///< its position is unknown
   };
 
-  /// Looks for the object that was at `position_px`, from the middle of the frame, `since_s` before
-  /// the frame that update() takes next.
+  /// Searches the object that was at `position_px`, from the middle of the frame, `since_s` before
+  /// the frame of the next update().
   void begin(const Eigen::Vector2d& position_px, double since_s);
 
   /// Takes the next frame. Returns the object as it is in `objects`; null when it is not among
@@ -143,15 +137,14 @@ class FollowedObject {
   const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
                              double interval_s, const Background* background);
 
-  /// After a cut, when all objects have new ids.
+  /// Call this after a cut, when all objects have new ids.
   void cut() {
     if (id_ != 0 && (rested_ || hidden_)) state_ = State::kLost;
   }
 
   State state() const { return state_; }
 
-  /// How long the object is looked for: it is known only from the second frame on in which it
-  /// moves.
+  /// How long the object is searched: it is known only from the second frame of its motion on.
   static constexpr double kLook_s = 0.5;
   /// An object that is not seen for longer is lost. ObjectTracker knows a hidden one for 0.5 s.
   static constexpr double kLost_s = 1;
@@ -169,32 +162,33 @@ class FollowedObject {
   uint32_t id_ = 0;
   Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< where it is, or would be
   Eigen::Vector2d velocity_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
-  double since_s_ = 0;                                       ///< begin()
+  double since_s_ = 0;                                       ///< since begin()
   double missing_s_ = 0;
-  bool rested_ = false;                ///< when it was seen last
-  bool hidden_ = false;                ///< when it was known last
+  bool rested_ = false;                ///< when last seen
+  bool hidden_ = false;                ///< when last known
   std::array<uint32_t, 32> before_{};  ///< ids in the previous frame
   size_t before_count_ = 0;
 };
 
-/// Chooses what is felt, frame by frame in the order in which they are shown. Allocates nothing.
+/// Chooses what is felt of a frame: by rules, by boxes from outside, or by a click. Takes the
+/// frames in the order of display. Allocates nothing.
 class ObjectChoice {
  public:
-  /// If the rule that held in the last frame is among the new ones, too, it keeps its object.
+  /// If the rule of the last frame is among the new ones, too, it keeps its object.
   void set_rules(std::shared_ptr<const FeelRules> rules);
   void set_kept(const KeptObject& kept);
 
   /// The result points into `frame`.
   Chosen choose(const ChoiceInput& frame);
 
-  /// After a seek: all objects are new.
+  /// Call this after a seek: all objects are new.
   void reset();
 
-  /// By how much another object must surpass the one that is felt: 1.3 times the area, or a
-  /// twentieth of the frame's height further in the direction of the rule.
+  /// How much another object must surpass the one that is felt: 1.3 times its size, or a twentieth
+  /// of the frame's height further in the direction of the rule.
   static constexpr double kLarger = 1.3;
   static constexpr double kFurther = 0.05;
-  /// How long the object that is felt may be out of sight before it is given up.
+  /// How long the object that is felt may be invisible before it is given up.
   static constexpr double kHold_s = 0.2;
 
  private:
@@ -206,7 +200,7 @@ class ObjectChoice {
 
   std::shared_ptr<const FeelRules> rules_;
   const FeelRule* rule_ = nullptr;  ///< of the previous frame
-  bool seen_from_begin_ = false;    ///< the rule, see Chosen::State::kNotSeen
+  bool seen_from_begin_ = false;    ///< of the rule, see Chosen::State::kNotSeen
   FollowedObject ruled_;
   bool missed_ = false;  ///< `ruled_` found nothing at its position
   BoxedObject boxed_;

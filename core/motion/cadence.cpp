@@ -13,9 +13,9 @@ namespace {
 
 /// Intervals that differ by less than this fraction count as equal: rounding and jitter of a clock.
 constexpr double kSameInterval = 0.2;
-/// An interval that is unlike the others and the only one in so many is an accident. In a rhythm,
-/// one in five is unlike the others, as with 25 pictures a second in 30 frames, or more are. (With
-/// 24 in 25 it is one in 24, and the interval without it is only 4 % too short.)
+/// A single different interval among so many is an accident. In a rhythm, at least one interval in
+/// five differs, as with 25 pictures a second in 30 frames. (With 24 in 25, one in 24 differs, and
+/// without it the interval is only 4 % too short.)
 constexpr size_t kAccidentIn = 2 * 5;
 /// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
 /// shown for different times.
@@ -35,8 +35,7 @@ double slope_of(const double* times, size_t count) {
 }  // namespace
 
 void Cadence::remember(const Shown& shown) {
-  // At another rate of playback, or with frames of irregular length, earlier intervals are not
-  // comparable.
+  // At another playback rate, or with irregular frames, earlier intervals are not comparable.
   if (!shown_.empty()) {
     const double before = static_cast<double>(shown_[0].interval_ns) / shown_[0].frames;
     const double now = static_cast<double>(shown.interval_ns) / shown.frames;
@@ -45,8 +44,8 @@ void Cadence::remember(const Shown& shown) {
   shown_.add(shown);
 }
 
-/// The first repetitions of a coded film pass for pictures, and cut the intervals of these in
-/// pieces.
+/// Joins the intervals that the first repetitions of a coded film have cut in pieces, because these
+/// repetitions passed for pictures.
 void Cadence::join_pieces(const RepeatedPicture::Repeats& repeats) {
   const History<Shown, kPictures> pieces = shown_;
   shown_.clear();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the rhythm in which a film shows new pictures.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +10,10 @@
 
 namespace spidar {
 
-/// A film can move although its frames repeat pictures: 24 pictures a second in 60 frames, a
-/// cartoon drawn on twos, a late frame that was shown twice. Its motion is the displacement between
-/// two different pictures, divided by the time between them.
+/// Finds the rhythm in which a film shows new pictures. A film can move although its frames repeat
+/// pictures: 24 pictures a second in 60 frames, a cartoon drawn on twos, a late frame that was
+/// shown twice. The motion is the displacement between two different pictures, divided by the time
+/// between them.
 ///
 /// That time is not the one between their first frames when the pictures were taken at even
 /// intervals and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for
@@ -26,18 +26,15 @@ class Cadence {
   /// seen. Together with the 15 ms in which the force of a late frame fades in
   /// (WrenchTimeline::kApproach_ns) this is 100 ms.
   static constexpr int64_t kRest_ns = 85'000'000;
-  /// Pictures that are further apart than this are not compared: a cartoon drawn on threes, plus a
-  /// frame.
+  /// Pictures further apart are not compared. This is a cartoon drawn on threes, plus a frame.
   static constexpr int64_t kLongest_ns = 2 * kRest_ns;
-  /// How many intervals are remembered.
   static constexpr size_t kPictures = 24;
 
   /// How a frame is treated.
   struct Step {
-    /// The frame repeats the picture, and it is not known yet whether the picture is at rest: the
-    /// previous force continues.
+    /// Whether the frame repeats the picture, perhaps not at rest: the previous force continues.
     bool waits = false;
-    /// Otherwise, the time in which its motion happened, > 0.
+    /// Otherwise, the time in which the motion happened, > 0.
     int64_t interval_ns = 0;
     /// The time between the first frames of the two pictures, > 0.
     int64_t shown_for_ns = 0;
@@ -46,20 +43,18 @@ class Cadence {
   /// Whether a picture that is repeated at `time_ns` would have to wait.
   bool would_wait(int64_t time_ns) const;
 
-  /// Takes the frame shown at `time_ns`, which must rise; the first one after reset() goes to
-  /// cut(). `picture`: kSame; kAlike, of a picture that waited for long enough to be analysed; or
-  /// kOther. `repeats`: which frames that were kOther are known by now to have repeated the
-  /// previous picture, this frame first.
+  /// Takes the frame shown at `time_ns`, which must rise; the first frame after reset() goes to
+  /// cut(). `picture` is kSame; kAlike for a picture that has waited long enough to be analysed; or
+  /// kOther. `repeats` tells which earlier kOther frames turned out to repeat their previous
+  /// picture, this frame first.
   Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
 
-  /// The next frame is the first picture after a cut: the motion begins anew, but the rhythm
-  /// remains.
+  /// Takes the first picture after a cut: the motion begins anew, but the rhythm remains.
   void cut(int64_t time_ns);
 
-  /// Forgets everything.
   void reset() { *this = Cadence(); }
 
  private:
@@ -81,8 +76,8 @@ class Cadence {
   History<Shown, kPictures> shown_;
   int64_t picture_ns_ = 0;    ///< when the latest picture was first shown
   int64_t frame_ns_ = 0;      ///< the latest frame
-  int frames_ = 0;            ///< number of frames that have shown the latest picture
-  bool has_changed_ = false;  ///< there has been another picture since the cut
+  int frames_ = 0;            ///< frames that have shown the latest picture
+  bool has_changed_ = false;  ///< whether there was another picture since the cut
 };
 
 }  // namespace spidar

@@ -22,7 +22,7 @@ double area_in_box(const MovingObject& object, const Eigen::AlignedBox2d& box_px
   return object.area_px2 * area_px2(object.box_px().intersection(box_px)) / all_px2;
 }
 
-/// The mean motion of the objects in sight, each with its weight.
+/// The mean motion of the visible objects, each with its weight.
 template <typename Weight>
 ImageMotion weighted_motion(const std::vector<MovingObject>& objects, Weight&& weight_of) {
   ImageMotion sum;

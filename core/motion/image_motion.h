@@ -18,7 +18,7 @@ namespace spidar {
 enum class MotionKind {
   kMean,    ///< mean velocity of the points of OpenCvTracker: the paper's eq. 1–10
   kObject,  ///< motion of the dominant object relative to the background
-  /// All objects relative to the background, weighted by area and nearness to the pointer.
+  /// All objects relative to the background, weighted by size and nearness to the pointer.
   kObjects,
   kCamera,  ///< motion of the camera
 };
@@ -36,20 +36,20 @@ struct DeadZone {
   /// than its bound may tremble. With the whole bound as the dead zone, the median force of
   /// `adaptive` on films falls from 0.98 to 0.82 N.
   static constexpr double kOfBound = kSigmas / 25;
-  /// For a motion whose error is not known, px/s of the reference frame: the speed at which eq. 15
+  /// For a motion whose error is unknown, px/s of the reference frame: the speed at which eq. 15
   /// with α = 0.01 and Fmax = 3 N gives 0.04 N, the smallest force that is felt (IEEE Trans.
   /// Haptics 2013, PubMed 24808327): tan(0.04 π / 6) / 0.01.
   static constexpr double kUnknownError_px_s = 2.1;
 };
 
-/// Motion of the picture between two frames.
 struct ImageMotion {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< image frame I: x right, y down
-  /// Relative change of lengths per second: 0.5 is half as large again. Positive: it comes nearer.
+  /// Relative change of lengths per second: 0.5 is half as large again, and the picture comes
+  /// nearer.
   double growth_1_s = 0;
-  double roll_rad_s = 0;      ///< rotation from x to y: clockwise as seen on the screen
-  int tracked = 0;            ///< number of points from which it was measured
-  double dead_zone_px_s = 0;  ///< see DeadZone; 0: no error is known
+  double roll_rad_s = 0;      ///< rotation from x to y: clockwise on the screen
+  int tracked = 0;            ///< number of measured points
+  double dead_zone_px_s = 0;  ///< see DeadZone; 0: the error is unknown
 };
 
 /// The paper's frame velocity (eq. 9–10): mean over all points of displacement / Δt. `interval_ns`
@@ -63,33 +63,32 @@ constexpr double kPointerReach = 0.25;
 
 /// Mean motion of the objects, each weighted by area_px2 · exp(−d² / 2σ²), where d is the distance
 /// of `pointer_px` (from the frame's centre) from the nearest edge of the object's box, 0 inside
-/// it. An object at the pointer counts with its full area; at a distance of a quarter of the
-/// frame's height the factor is 0.61, at half of it 0.14, at the full height 0.0003. A single
-/// object is felt at full strength wherever it is, because the weights are normalised. Objects at
-/// rest count, objects out of sight do not.
+/// it. An object at the pointer counts with its full size; at a distance of a quarter of the
+/// frame's height the factor is 0.61, at half of it 0.14, at the full height 0.0003. The weights
+/// are normalised, so a single object is felt at full strength everywhere. Objects at rest count,
+/// invisible objects do not.
 ImageMotion motion_at_pointer(const std::vector<MovingObject>& objects,
                               const Eigen::Vector2d& pointer_px, int frame_height);
 
-/// Mean motion of the objects in sight, each weighted by the area that it has in a box of the
-/// frame, px from the frame's centre: the box around it stands for its outline.
+/// Mean motion of the visible objects, each weighted by the part of its box in a box of the frame,
+/// px from the frame's centre.
 ImageMotion motion_in_box(const std::vector<MovingObject>& objects,
                           const Eigen::AlignedBox2d& box_px);
 
-/// Motion of the camera over `interval_s` > 0: it moves to the right when the background moves to
-/// the left, and forwards when the background grows. `votes` is the number of displacements that
-/// the background was found from.
+/// Motion of the camera over `interval_s` > 0: the camera moves to the right when the background
+/// moves to the left, and forwards when the background grows. `votes` is the number of
+/// displacements of the background.
 ImageMotion camera_motion(const Background& background, int votes, double interval_s);
 
-/// The motion of this object alone.
 ImageMotion relative_motion(const MovingObject& object);
 
-/// The shortest interval that is assumed between two frames: half a tick of the haptic loop. A
-/// displacement must not be divided by the rounding error of timestamps.
+/// The shortest assumed interval between two frames: half a tick of the haptic loop. A displacement
+/// must not be divided by the rounding error of timestamps.
 constexpr int64_t kMinInterval_ns = 500'000;
 
-/// `motion`, limited to the most that can be seen in `interval_s` > 0: a displacement of the
-/// frame's width, lengths twice or half as large, half a turn. Directions are kept. A value that is
-/// not finite becomes 0.
+/// `motion`, limited to what can be seen in `interval_s` > 0: a displacement of the frame's width,
+/// lengths twice or half as large, half a turn. Directions stay. A value that is not finite becomes
+/// 0.
 ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
 
 }  // namespace spidar

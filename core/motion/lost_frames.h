@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tells a frame that was lost from one that shows a picture again.
 #pragma once
 
 #include <cmath>
@@ -8,13 +7,15 @@
 
 namespace spidar {
 
-/// A frame may have been repeated because the one after it was lost: the picture has then moved on
-/// in the meantime, and the time between the frames is the right one, not that of the rhythm. The
-/// speed tells which of the two it was: with the right time, it is close to the previous speed.
+/// Distinguishes a lost frame from a repeated picture. A frame may have been repeated because the
+/// one after it was lost: the picture has then moved on in the meantime, and the time between the
+/// frames is right, not that of the rhythm. The speed decides: with the right time, it is close to
+/// the previous speed.
 class LostFrames {
  public:
-  /// Factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1, or what
-  /// `shown_for_ns` in place of it makes of the speed. Call this once for each that does not wait.
+  /// Returns a factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1,
+  /// or the factor for `shown_for_ns` in place of that interval. Call this once for each frame that
+  /// does not wait.
   double correction(int64_t interval_ns, int64_t shown_for_ns, double speed_px_s) {
     double factor = 1;
     if (interval_ns > 0 && shown_for_ns != interval_ns && speed_px_s > 0 && last_px_s_ > 0) {
@@ -27,11 +28,11 @@ class LostFrames {
     return factor;
   }
 
-  /// After a cut.
+  /// Call this after a cut.
   void reset() { last_px_s_ = 0; }
 
  private:
-  /// The other speed has to be closer by more than this fraction. A judgement, not derived: where
+  /// The other speed must be closer by more than this fraction. A judgement, not derived: where
   /// both are about as close, noise would choose.
   static constexpr double kCloserBy = 0.2;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What is measured in a frame, including which object is dominant. What is felt is chosen later.
 #pragma once
 
 #include <cstdint>
@@ -16,21 +15,22 @@
 
 namespace spidar {
 
-/// In a frame that waits, all but `picture` is that of the previous picture.
+/// What is measured in a frame, including which object is dominant; what is felt is chosen later.
+/// In a frame that waits, all members but `picture` are those of the previous picture.
 struct MeasuredFrame {
   Likeness picture = Likeness::kFirst;
   /// All lengths are the film's, and positions are from its middle, unless stated otherwise.
   FilmPlace place;
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
   int64_t shown_for_ns = 0;  ///< see Cadence::Step
-  int features = 0;          ///< points looked for in the next frame
+  int features = 0;          ///< points to look for in the next frame
   /// Blocks that show how they move, or with motion=mean the points; empty with kFirst.
   std::vector<FollowedPoint> points;
   /// Zero unless motion=mean, with which all members below are empty.
   ImageMotion mean;
   std::optional<Background> background;  ///< how the camera moves; nothing with kFirst
-  int votes = 0;                         ///< displacements that the background was found from
-  std::vector<MovingObject> objects;     ///< that are known, visible or not, ordered by id
+  int votes = 0;                         ///< displacements of the background
+  std::vector<MovingObject> objects;     ///< the known ones, visible or not, ordered by id
   uint32_t dominant = 0;                 ///< id of the object that motion=object feels; 0: none
 
   /// Null when no object is dominant.
@@ -38,7 +38,6 @@ struct MeasuredFrame {
   int width() const { return place.area.width; }  ///< of the film, px
   int height() const { return place.area.height; }
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
-  /// Forgets what moves, but keeps the memory.
   void clear_motion() {
     picture = Likeness::kFirst;
     interval_ns = shown_for_ns = 0;

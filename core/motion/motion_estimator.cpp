@@ -27,7 +27,7 @@ void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& 
   windows_.keep(frame, field_, position, of_objects_);
 }
 
-/// Lists the blocks that show how they move as points; their number is the id.
+/// Lists the blocks that show how they move as points, with their number as id.
 void MotionEstimator::report_points(const FieldPosition& position,
                                     std::vector<FollowedPoint>& points) const {
   points.clear();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The part of the pictures that a film has, where something else is around it.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +11,7 @@
 
 namespace spidar {
 
-/// Which part of the pictures is analysed.
+/// Which part of the pictures is analysed, where something else is around the film.
 struct AreaSetting {
   enum class Kind : uint8_t {
     kWhole,
@@ -21,14 +20,14 @@ struct AreaSetting {
   };
 
   Kind kind = Kind::kAuto;
-  PicturePart part;  ///< px; what lies outside a picture is left out
+  PicturePart part;  ///< px; parts outside a picture are left out
 
   /// The part of a picture of this size, all of it with kAuto; one with a side below kMinSide_px
   /// cannot be analysed.
   PicturePart of_picture(int width, int height) const {
     if (kind != Kind::kFixed) return {0, 0, width, height};
     const int left = std::clamp(part.x, 0, width), top = std::clamp(part.y, 0, height);
-    // Not the sums, which may be too large for an int.
+    // The sums may be too large for an int.
     const int right = part.width < width - part.x ? part.x + part.width : width;
     const int bottom = part.height < height - part.y ? part.y + part.height : height;
     return {left, top, std::max(right - left, 0), std::max(bottom - top, 0)};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A view of a grey picture in memory that the caller owns.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +9,16 @@
 
 namespace spidar {
 
-/// How a pixel's luma is stored: in one byte, or in a word of two bytes. Of a word, only the eight
-/// bits above the lowest `shift` count; a word with higher bits set stands for white.
+/// How a pixel's luma is stored: in one byte, or in a word of two bytes. Only the eight bits of a
+/// word above the lowest `shift` count; a word with higher bits set stands for white.
 struct LumaSample {
-  int bytes = 1;  ///< 1 or 2; a word need not lie at an even address
+  int bytes = 1;  ///< 1 or 2; a word may lie at an odd address
   int shift = 0;  ///< of words, 0 … 8: 2 for 10 low-aligned bits, 8 for any high-aligned ones
   bool big_endian = false;  ///< of words
 };
 
-/// Luma, `height` rows of `width` pixels, rows `stride_bytes` apart. Never owns the memory.
+/// A view of a grey picture in memory that the caller owns: luma, `height` rows of `width` pixels,
+/// rows `stride_bytes` apart.
 struct ImageView {
   const uint8_t* data = nullptr;
   int width = 0;
@@ -33,7 +33,7 @@ struct ImageView {
 /// a setting has the same effect at 360p and at 2160p.
 constexpr double kReferenceHeight_px = 480.0;
 
-/// Minimum width and height of a frame in which motion is found, px.
+/// The minimum width and height of a frame in which motion is found, px.
 constexpr int kMinSide_px = 16;
 
 /// Throws std::invalid_argument when the frame has no pixels, a side shorter than kMinSide_px, a

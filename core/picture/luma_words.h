@@ -11,7 +11,6 @@
 
 namespace spidar {
 
-/// Pixels of one byte.
 struct LumaBytes {
   static constexpr int kBytes = 1;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The parts of OpenCV that are needed: its view of a picture, its functions on one thread, and its
-/// vectors of 16 bytes, which are emulated where the processor has none. intrin.hpp needs core.hpp
-/// and does not include it.
+/// The parts of OpenCV that the project uses: its view of a picture, its functions on one thread,
+/// and its vectors of 16 bytes, which are emulated where the processor has none. intrin.hpp needs
+/// core.hpp and does not include it.
 #pragma once
 
 #include <cstdint>
@@ -16,12 +16,11 @@
 namespace spidar {
 
 /// `width` × `height` elements of an OpenCV type. cv::Mat has no const view: only for functions
-/// that do not write to what they read.
+/// that do not write to their input.
 inline cv::Mat const_mat(const uint8_t* data, int width, int height, int type,
                          ptrdiff_t stride_bytes) {
   return {height, width, type, const_cast<uint8_t*>(data), static_cast<size_t>(stride_bytes)};
 }
-/// A picture of 8 bits.
 inline cv::Mat const_mat(const ImageView& view) {
   return const_mat(view.data, view.width, view.height, CV_8U, view.stride_bytes);
 }

@@ -55,7 +55,6 @@ v_uint16x8 block_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t ste
 /// stalls at each row of a frame with skipped rows, and takes three times as long in total.
 constexpr int kRowsAhead = 2;
 
-/// One row of blocks.
 struct SourceRows {
   ptrdiff_t step;  ///< between the rows that are used
   int factor;
@@ -79,7 +78,7 @@ uint8_t block_mean(const Reader& reader, const SourceRows& row, int x) {
   return static_cast<uint8_t>((sum + row.count() / 2u) / row.count());
 }
 
-/// `row` is a copy: what is stored might change anything else.
+/// `row` is a copy, because a store might alias anything else.
 template <int kFactor, typename Reader>
 int reduce_by_power_of_2(const Reader& reader, const SourceRows row, uint8_t* to) {
   constexpr int kCacheLine = 64;
@@ -90,7 +89,7 @@ int reduce_by_power_of_2(const Reader& reader, const SourceRows row, uint8_t* to
   const v_uint16x8 inverse = cv::v_setall_u16(65536 / kCount);
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
-    // Of a line that several vectors fill, once.
+    // Where several vectors share a cache line, once per line.
     const bool begins_line = 8 * kBlock >= kCacheLine || x * kBlock % kCacheLine == 0;
     for (int k = 0; begins_line && k < kRows; ++k) {
       for (int i = 0; i < 8 * kBlock; i += kCacheLine) {

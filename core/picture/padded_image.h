@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A picture with room for windows beyond its edge, and the reductions that make one.
+/// A picture with space for windows beyond its edge, and the reductions that make one.
 #pragma once
 
 #include <cstddef>
@@ -11,15 +11,15 @@
 
 namespace spidar {
 
-/// 8-bit picture whose border pixels are replicated for kPad_px on each side, so that windows may
-/// cross the edge without a check.
+/// An 8-bit picture whose border pixels are replicated for kPad_px on each side, so that windows
+/// may cross the edge without a check.
 class PaddedImage {
  public:
   static constexpr int kPad_px = 32;
 
   /// Keeps the memory when the size is the same.
   void resize(int width, int height);
-  /// Call after the pixels have been written.
+  /// Call this after the pixels have been written.
   void repeat_border();
 
   int width() const { return width_; }
@@ -37,8 +37,7 @@ class PaddedImage {
   std::vector<uint8_t> memory_;
 };
 
-/// Area of the picture in which motion is found, as nearly as reductions by powers of 2 and 3/2
-/// allow.
+/// The area of a reduced picture, as nearly as reductions by powers of 2 and 3/2 allow.
 constexpr double kFieldArea_px2 = 427.0 * 240.0;
 
 /// The largest power of 2 that leaves at least a picture of nearly kFieldArea_px2. It is smaller if

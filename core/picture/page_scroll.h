@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tells a page that scrolls from a camera that moves.
 #pragma once
 
 #include <array>
@@ -11,17 +10,16 @@
 
 namespace spidar {
 
-/// A page scrolls up or down by whole pixels, and what it shows stays the same to the last bit,
-/// while the noise of a camera changes what moves. A few patches therefore show it: a page scrolls
-/// when all that have changed in some columns or rows of them are found again, unchanged and as far
-/// away, and have rested or scrolled before. So does a cartoon without noise that goes on panning
-/// up or down by whole pixels. For one thread at a time; does not allocate.
+/// Distinguishes a page that scrolls from a camera that moves. A page scrolls up or down by whole
+/// pixels, and its content stays the same to the last bit, while the noise of a camera changes
+/// moving content. A few patches therefore show it: a page scrolls when all changed patches in some
+/// columns or rows are found again, unchanged and as far away, and have rested or scrolled before.
+/// So does a cartoon without noise that keeps panning up or down by whole pixels. For one thread at
+/// a time; does not allocate.
 class PageScroll {
  public:
-  /// Whether the picture shows the previous one scrolled. One of another size or format shows
-  /// nothing.
+  /// Whether the picture is the previous one scrolled; false for another size or format.
   bool look(const ImageView& picture);
-  /// The next picture is not compared with this one.
   void reset() { width_ = 0; }
 
   static constexpr int kPatch_bytes = 16;

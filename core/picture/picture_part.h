@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A rectangle of a picture.
 #pragma once
 
 #include "core/picture/image_view.h"
 
 namespace spidar {
 
-/// In px.
+/// A rectangle of a picture, px.
 struct PicturePart {
   int x = 0, y = 0, width = 0, height = 0;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A reduced frame, from which all measurements of motion start.
 #pragma once
 
 #include <utility>
@@ -11,7 +10,7 @@
 
 namespace spidar {
 
-/// Reduces each frame once, for all parts of the analysis.
+/// Reduces each frame once, for all measurements of motion.
 class ReducedFrame {
  public:
   /// Returns picture(). A frame that repeats the previous picture is skipped: the next one is
@@ -36,23 +35,20 @@ class ReducedFrame {
     return picture_;
   }
 
-  /// Mean of each factor() × factor() block of the frame, see halving_factor(). The border is
-  /// repeated.
+  /// The mean of each factor() × factor() block of the frame, with a repeated border.
   const PaddedImage& base() const { return base_; }
   /// The same for the previous frame, if it is comparable.
   const PaddedImage& before() const { return before_; }
   int factor() const { return factor_; }
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
-  /// kFirst where the previous frame had another size; kSame where this one was skipped. Never
-  /// kWaiting.
+  /// kFirst after a frame of another size; kSame where this frame was skipped. Never kWaiting.
   Likeness picture() const { return picture_; }
-  /// Which of the latest frames repeated a picture, as far as is known by now.
+  /// Which of the latest frames repeated a picture, as far as known.
   RepeatedPicture::Repeats repeats() const { return repeated_picture_.repeats(); }
 
-  /// This frame was the first one after a cut.
+  /// Tells that this frame was the first one after a cut.
   void cut() { repeated_picture_.cut(); }
-  /// The next frame will not be compared with this one.
   void reset() { width_ = 0; }
 
  private:

@@ -29,7 +29,6 @@ unsigned whole_block_change(const ImageView& a, const ImageView& b, int x, int y
   return sum.total();
 }
 
-/// Mean of the largest values.
 class LargestMean {
  public:
   void add(float value) {
@@ -120,7 +119,7 @@ bool RepeatedPicture::is_small(float change) const {
 
 RepeatedPicture::Repeats RepeatedPicture::repeats() const {
   Repeats repeats = rhythm(kFraction).is_dip;
-  // Those of the first picture have no larger change before them.
+  // The changes of the first picture have no larger change before them.
   float largest = 0;
   for (size_t i = changes_.size(); i-- > 0;) {
     if (largest < kFraction * changes_[i]) {

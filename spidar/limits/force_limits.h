@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The limits of force and torque: what was set, and what is in effect.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +10,11 @@
 
 namespace spidar {
 
-/// Owns the limits of a loop, which everything in it reads: those that were set, and those in
-/// effect. A raised limit takes effect at once; the force approaches it at the slew limit. A
-/// lowered limit falls at the slew limit, from the larger one of the commanded and the delivered
-/// force, to the value that was set. It does not stop at the force of the strings at rest, a part
-/// of the delivered force that no limit lowers. The same holds for the torque.
+/// Owns the limits of force and torque of a loop: those that were set, and those in effect. A
+/// raised limit applies at once; the force approaches it at the slew limit. A lowered limit falls
+/// at the slew limit, from the larger one of the commanded and the delivered force, to the set
+/// value. The limit in effect does not stop at the force of the strings at rest, a part of the
+/// delivered force that no limit lowers. The same holds for the torque.
 class ForceLimits {
  public:
   /// `most_N` and `most_Nm` bound the limits, however high they are set, until the first tick.
@@ -27,13 +26,13 @@ class ForceLimits {
         now_(set_),
         before_(set_) {}
 
-  /// Takes effect with the next fall() or restart(). Any thread, one caller at a time.
+  /// Applies from the next fall() or restart() on. Any thread, one caller at a time.
   void set(const SafetyLimits& limits) noexcept { shared_.store(limits); }
 
   // --- loop thread
 
-  /// A tick begins, `dt_s` after the last one that was answered, in which the wrenches were
-  /// `commanded` and `delivered`. `most_N` and `most_Nm` bound the limits from now on.
+  /// Begins a tick, `dt_s` after the last answered one, whose wrenches were `commanded` and
+  /// `delivered`. `most_N` and `most_Nm` bound the limits from now on.
   void fall(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N,
             double most_Nm) noexcept {
     most_N_ = most_N;
@@ -47,12 +46,12 @@ class ForceLimits {
                                 std::max(commanded.torque_Nm.norm(), delivered.torque_Nm.norm()),
                                 non_negative(set_.max_slew_Nm_s * dt_s));
   }
-  /// A tick begins in which nothing pulls.
+  /// Begins a tick in which nothing pulls.
   void restart() noexcept {
     take();
     now_ = set_;
   }
-  /// The device did not receive what was commanded in this tick.
+  /// Tells that the device did not receive the command of this tick.
   void undo() noexcept { now_ = before_; }
 
   const SafetyLimits& as_set() const noexcept { return set_; }

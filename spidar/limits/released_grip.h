@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How strong a force may be on a grip that a hand may let go of at any time.
+/// The largest force on a grip that a hand may release at any time.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,19 @@ namespace spidar {
 constexpr double kReleased_m_s = 1.5;
 constexpr double kReleased_J = 0.05;
 
-/// Time from when a hand lets go until a command takes account of it: up to a tick until the next
-/// reading, a second reading for a velocity, and a tick until the command that follows it.
+/// The time from the release until a command takes account of it: up to a tick until the next
+/// reading, a second reading for a velocity, and a tick until the command that follows.
 constexpr int kAnswers = 3;
 constexpr double kNoticed_s = kAnswers * 1e-3;
 
-/// Fraction of the drives' lag τ for which a force goes on accelerating when the brake reverses it:
-/// after τ ln 2 it is zero, and until then 1 − ln 2 of F τ has acted.
+/// The fraction of the drives' lag τ for which a force continues to accelerate when the brake
+/// reverses it: after τ ln 2 the force is zero, and until then 1 − ln 2 of F τ has acted.
 constexpr double kReversed = 0.307;
 
-/// The largest force limit. The whole force accelerates a released grip until it is noticed, for
+/// The largest force limit. The whole force accelerates a released grip until the loop notices, for
 /// which each answer takes `late_s` longer than a tick, and, on average, for the lag of the drives:
-/// to kReleased_m_s if the grip is one of kLightestGrip_kg. kDefaultForce_N is permitted as long as
-/// it throws no faster when the damper reverses it: with a lag of up to 45 ms.
+/// to kReleased_m_s for a grip of kLightestGrip_kg. kDefaultForce_N is permitted as long as it
+/// throws no faster when the damper reverses it: with a lag of up to 45 ms.
 constexpr double released_force_N(double drive_lag_s, double late_s = 0) noexcept {
   const double impulse_N_s = kLightestGrip_kg * kReleased_m_s;
   const double noticed_s = kNoticed_s + kAnswers * late_s;

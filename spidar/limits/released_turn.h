@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How strong a torque may be on a grip that a hand may let go of, and how that grip turns.
+/// The largest torque on a grip that a hand may release, and how that grip rotates.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace spidar {
 
-/// The largest torque limit, as released_force_N(): the whole torque turns a free grip of the
-/// smallest inertia, until it is noticed, up to kReleased_m_s of its surface. kDefaultTorque_Nm is
-/// permitted as long as it turns it no faster when the damper reverses it.
+/// The largest torque limit, as released_force_N(): the whole torque rotates a free grip of the
+/// smallest inertia, until the loop notices, up to kReleased_m_s of its surface. kDefaultTorque_Nm
+/// is permitted as long as it rotates the grip no faster when the damper reverses it.
 constexpr double released_torque_Nm(const GripBody& body, double radius_m, double drive_lag_s,
                                     double late_s = 0) noexcept {
   if (!(radius_m > 0)) return std::numeric_limits<double>::infinity();

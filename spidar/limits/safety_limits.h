@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The limits of what a hand gets.
 #pragma once
 
 #include "core/default_limits.h"
@@ -12,13 +11,13 @@ constexpr double non_negative(double x) noexcept {
   return x > 0 ? x : 0;
 }
 
-/// A limit that is negative or not a number counts as zero.
+/// The limits of what a hand gets. A limit that is negative or not a number counts as zero.
 struct SafetyLimits {
   double max_force_N = kDefaultForce_N;      ///< of the total force
   double max_torque_Nm = kDefaultTorque_Nm;  ///< of the total torque
   double max_slew_N_s = 300.0;               ///< full default force in 10 ms
   double max_slew_Nm_s = 10.0;
-  double ramp_s = 0.04;  ///< from full to rest when commands stop, and back when they begin
+  double ramp_s = 0.04;  ///< from full to zero when commands stop, and back when they begin
 };
 
 }  // namespace spidar

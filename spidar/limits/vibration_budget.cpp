@@ -19,7 +19,7 @@ constexpr double kTransitionQ = 0.64;
 /// vibration still lowers the force at once, because a small fraction of its mean is enough.
 constexpr double kMean_s = 2;
 /// Added to the acceleration, m/s². A constant passes no high-pass, and keeps the numbers of a
-/// filter without input from becoming denormal, which takes long to compute with.
+/// filter without input from becoming denormal, which are slow to compute with.
 constexpr double kOffset = 1e-6;
 /// In one tick: 50 ms, six periods of the high-pass.
 constexpr int kMostSteps = 50;
@@ -74,8 +74,8 @@ void VibrationBudget::update(const Wrench& strings, double passed_s, int64_t now
   const double left_m2_s3 = std::max(0.0, kStore_m2_s3 - kRefill_m2_s4 * empty_s);
   state_.left = 1 / kStore_m2_s3 * left_m2_s3;
 
-  // The fraction is constant over a period of what is shaken, so that the vibration without it
-  // follows from what was passed.
+  // The fraction is constant over a period of the vibration, so the vibration without it follows
+  // from the passed one.
   const double least_fraction = 1e-3;
   const double passed = std::max(state_.fraction, least_fraction);
   const double whole_m2_s4 = squared_m2_s4 / (passed * passed);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// How much a hand may be shaken within a day.
 #pragma once
 
 #include <algorithm>
@@ -13,28 +12,28 @@
 
 namespace spidar {
 
-/// Measures the vibration that the strings cause and finds the fraction of the force that may go
-/// on.
+/// Measures the vibration that the strings cause, and finds the fraction of the force that may
+/// continue within the vibration of a day.
 ///
 /// The alternating part of the force, divided by kMoved_kg, is an acceleration. It is weighted with
 /// W_h of ISO 5349-1, squared and integrated. A torque counts as the force at the grip's radius
 /// that causes it. The weight is 0.03 at 1 Hz, 0.25 at 3 Hz, most at 12 Hz, and falls as 1/f above
-/// that, so that a slow force hardly counts.
+/// that, so a slow force hardly counts.
 ///
-/// There is a store of kStore_m2_s3, from which the vibration takes, and which is refilled with
-/// kRefill_m2_s4. In any 24 hours a hand therefore gets at most kStore_m2_s3 + 24 h ·
-/// kRefill_m2_s4, which is the daily action value of Directive 2002/44/EC: 2.5 m/s² for eight
-/// hours. The fraction falls so that the vibration takes at most 1/kEmptied_s of what is left each
-/// second, and is 1 as long as this is no restriction.
+/// The vibration takes from a store of kStore_m2_s3, which is refilled with kRefill_m2_s4. In any
+/// 24 hours a hand therefore gets at most kStore_m2_s3 + 24 h · kRefill_m2_s4, which is the daily
+/// action value of Directive 2002/44/EC: 2.5 m/s² for eight hours. The fraction falls so that the
+/// vibration takes at most 1/kEmptied_s of the rest each second, and is 1 as long as this is no
+/// restriction.
 class VibrationBudget {
  public:
   struct State {
-    /// Fraction of the wanted wrench, within its limits, that may be exerted, 0 … 1.
+    /// The fraction of the wanted wrench, within its limits, that may be exerted, 0 … 1.
     double fraction = 1;
-    /// Fraction of the store that is left, 0 … 1.
+    /// The fraction of the store that is left, 0 … 1.
     double left = 1;
 
-    /// A hand notices that the force is lowered: a force must change by 7 % for that.
+    /// A hand notices a lowered force: a force must change by 7 % for that.
     bool lowered() const noexcept { return fraction < 0.93; }
   };
 
@@ -43,28 +42,26 @@ class VibrationBudget {
   static constexpr double kStore_m2_s3 = kDay_m2_s3 / 2;
   static constexpr double kRefill_m2_s4 = (kDay_m2_s3 - kStore_m2_s3) / (24 * 3600);
   static constexpr double kEmptied_s = 60;
-  /// Vibration that is always permitted, a quarter of the refill: 0.51 m/s².
+  /// The vibration that is always permitted, a quarter of the refill: 0.51 m/s².
   static constexpr double kAlways_m2_s4 = kRefill_m2_s4 / 4;
   /// A lowered force returns with this time constant.
   static constexpr double kReturn_s = 20;
-  /// Mass that the force moves. It is that of a grip alone, which is conservative. ISO 10068 has
+  /// The mass that the force moves: that of a grip alone, which is conservative. ISO 10068 has
   /// values of the hand, but for handles that are gripped with 25 N or more.
   static constexpr double kMoved_kg = 0.1;
-  /// Period of the weighting filter, s.
   static constexpr double kTick_s = 1e-3;
 
   /// `grip_radius_m` converts torques to forces; 0: torques do not count.
   explicit VibrationBudget(double grip_radius_m) noexcept;
 
   /// The strings exert `strings` in a tick, `passed_s` after the last one. The filters run in steps
-  /// of kTick_s, however irregular the ticks are. `now_ns` rises.
+  /// of kTick_s, however irregular the ticks are. `now_ns` must rise.
   void update(const Wrench& strings, double passed_s, int64_t now_ns) noexcept;
 
   double fraction() const noexcept { return state_.fraction; }
-  /// The state after the last update().
   const State& state() const noexcept { return state_; }
 
-  /// When the store will be full again if there is no more vibration, on the clock of update().
+  /// When the store will be full again without more vibration, on the clock of update().
   int64_t full_at_ns() const noexcept {
     return std::max(full_at_ns_, restored_ns_.load(std::memory_order_relaxed));
   }
@@ -72,7 +69,7 @@ class VibrationBudget {
   void restore(int64_t full_at_ns) noexcept {
     restored_ns_.store(full_at_ns, std::memory_order_relaxed);
   }
-  /// What all vibration so far has taken, as the time that refilling it takes. Any thread.
+  /// The vibration so far, as the time that refilling takes. Any thread.
   int64_t taken_ns() const noexcept { return taken_ns_.load(std::memory_order_relaxed); }
 
  private:
@@ -92,7 +89,7 @@ class VibrationBudget {
   Section transition_;  ///< from acceleration to velocity, ISO 5349-1
   Section high_pass_;
   double due_s_ = 0;       ///< time since the filters' last step
-  double mean_m2_s4_ = 0;  ///< of the unlowered vibration, at present
+  double mean_m2_s4_ = 0;  ///< of the present vibration at full force
   double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
   State state_;
   int64_t full_at_ns_ = INT64_MIN;

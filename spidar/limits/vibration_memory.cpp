@@ -28,16 +28,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often what was taken is kept: of what is left, vibration takes 1/kEmptied_s a second.
+/// How often the taken vibration is stored: it takes 1/kEmptied_s of the rest a second.
 constexpr std::chrono::seconds kEvery{1};
-/// What is less than this waits: a thousandth of the store, so that a film that hardly vibrates
-/// does not keep a disk awake.
+/// A smaller amount waits: a thousandth of the store, so that a film that hardly vibrates does not
+/// keep a disk awake.
 constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBudget::kStore_m2_s3 /
                                                        VibrationBudget::kRefill_m2_s4);
-/// No store is emptier than this: twice what it holds.
+/// No store is emptier than this: twice its capacity.
 constexpr int64_t kMax_ns = 4 * VibrationMemory::kUnknown_ns;
 
-/// Of the text in the file.
 constexpr size_t kMaxText = 200;
 
 /// Root may write everything anyway, as with a home that sudo has kept.
@@ -48,9 +47,10 @@ bool is_of_another(const struct stat& status) {
 /// The owner that a user namespace, as of a container, shows for root outside of it (overflowuid).
 constexpr uid_t kUnmapped = 65534;
 
-/// The first folder above the file in which others may remove or rename what leads to it, or
-/// whose permissions are not known; empty if there is none. A sticky folder lets everybody do so
-/// with his own files only. A group that this user belongs to by default is taken for his own.
+/// The first folder above the file in which others may remove or rename a part of the path, or
+/// whose permissions are unknown; empty if there is none. In a sticky folder, everybody may do so
+/// with their own files only. A group to which this user belongs by default counts as the user's
+/// own.
 std::string folder_of_others(const fs::path& file) {
   std::error_code error;
   fs::path folder = fs::canonical(file, error);
@@ -67,7 +67,7 @@ std::string folder_of_others(const fs::path& file) {
   return {};
 }
 
-/// An open file that nobody else has locked, or errno.
+/// An open file that no other process has locked, or errno.
 class LockedFile {
  public:
   explicit LockedFile(const std::string& path) {
@@ -96,7 +96,7 @@ class LockedFile {
   LockedFile(const LockedFile&) = delete;
   LockedFile& operator=(const LockedFile&) = delete;
 
-  /// Empty after an error.
+  /// Returns an empty text after an error.
   std::string read() {
     if (error != 0) return {};
     std::array<char, kMaxText> text{};
@@ -104,7 +104,7 @@ class LockedFile {
     if (length < 0) error = errno;
     return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
   }
-  /// In one piece, and always of the same length: nobody finds a part of it.
+  /// Writes in one piece, and always of the same length: no reader finds a part of it.
   void write(const std::string& text) {
     if (error != 0) return;
     const ssize_t length =
@@ -114,7 +114,7 @@ class LockedFile {
   }
 
   int error = 0;
-  std::string untrusted;  ///< why what it says may be somebody else's; empty: it is this user's
+  std::string untrusted;  ///< why somebody else may have written the content; empty: this user has
 
  private:
   int file_ = -1;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Keeps what is left of the user's VibrationBudget in a file, for the next program and for those
-/// that run at the same time.
 #pragma once
 
 #include <condition_variable>
@@ -17,8 +15,8 @@ namespace spidar {
 
 /// A time on two clocks of the kernel, of which only the first cannot be set.
 struct Moment {
-  int64_t since_boot_ns = 0;  ///< CLOCK_BOOTTIME, which goes on while the computer sleeps
-  std::string boot;           ///< which start of the computer that is; empty: not known
+  int64_t since_boot_ns = 0;  ///< CLOCK_BOOTTIME, which continues while the computer sleeps
+  std::string boot;           ///< identifies this start of the computer; empty: unknown
   int64_t utc_ns = 0;
 
   static Moment now();
@@ -28,16 +26,17 @@ struct Moment {
 /// computer, the larger one of the time since the restart and the difference in UTC.
 int64_t passed_ns(const Moment& then, const Moment& now) noexcept;
 
-/// Any thread.
+/// Stores the rest of the user's VibrationBudget in a file, for the next program and for those that
+/// run at the same time. Any thread.
 class VibrationMemory {
  public:
-  /// Time until a half-empty store is full again, which is assumed if the file cannot be used and
-  /// nothing is known.
+  /// The time until a half-empty store is full again, which is assumed if the file cannot be used
+  /// and nothing is known.
   static constexpr auto kUnknown_ns = static_cast<int64_t>(1e9 * VibrationBudget::kStore_m2_s3 / 2 /
                                                            VibrationBudget::kRefill_m2_s4);
 
-  /// Without a file, nothing is kept beyond this object; unless that is wanted, `why_no_file` says
-  /// why there is none.
+  /// Without a file, this object only remembers until it is destroyed; unless that is wanted,
+  /// `why_no_file` says why there is none.
   explicit VibrationMemory(std::string file, std::string why_no_file = {})
       : file_(std::move(file)), why_no_file_(std::move(why_no_file)) {}
 
@@ -45,8 +44,8 @@ class VibrationMemory {
   /// set, in that folder; if SPIDAR_STATE is empty, a memory of this process only.
   static VibrationMemory& of_user();
 
-  /// Adds what was taken since the last call, as the time that refilling it takes, and returns the
-  /// time until the store is full again.
+  /// Adds the vibration since the last call, as the time that refilling takes, and returns the time
+  /// until the store is full again.
   int64_t add(int64_t taken_ns, const Moment& now = Moment::now());
   /// Why the file was not used, and what is assumed instead; empty if it was.
   std::string error() const;
@@ -64,16 +63,16 @@ class VibrationMemory {
 
   const std::string file_, why_no_file_;
   mutable std::mutex mutex_;
-  std::optional<Entry> last_;  ///< known in this process
+  std::optional<Entry> last_;  ///< as this process knows it
   std::string error_;
 };
 
 /// Keeps the memory up to date while a loop runs, in a thread of its own.
 class VibrationKeeper {
  public:
-  /// `budget` begins with what is left.
+  /// `budget` begins with the rest in the memory.
   VibrationKeeper(VibrationBudget& budget, VibrationMemory& memory);
-  /// The loop has ended.
+  /// Call this when the loop has ended.
   ~VibrationKeeper();
 
  private:
@@ -81,7 +80,7 @@ class VibrationKeeper {
 
   VibrationBudget& budget_;
   VibrationMemory& memory_;
-  int64_t kept_ns_ = 0;  ///< of what the budget has taken
+  int64_t kept_ns_ = 0;  ///< stored part of the budget's vibration
   std::mutex mutex_;
   std::condition_variable ended_;
   bool ends_ = false;

@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// `v` shortened to at most `max` in the same direction; zero when it has hardly any length.
+/// `v` shortened to at most `max` in the same direction; zero when its length is negligible.
 Eigen::Vector3d shorten(const Eigen::Vector3d& v, double max) {
   const double norm = v.stableNorm();
   if (norm <= max) return v;
@@ -33,7 +33,7 @@ Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept {
 }
 
 // The total limits are balls: on a straight line to a point within them, the distance to them never
-// grows, and what is within them stays there.
+// grows, and a wrench within them stays there.
 Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
                   const SafetyLimits& limits) noexcept {
   const auto step = [dt_s](Eigen::Vector3d& from, const Eigen::Vector3d& to, double max,
@@ -65,7 +65,7 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   const double fraction = stale_.apply(fresh, dt_s, limits);
   if (fresh) return last_ = limit_slew(last_, fraction * wanted, dt_s, limits);
   const double left = before > 0 ? fraction / before : 0;
-  // A limit that was lowered is reached on the way to rest, too.
+  // A lowered limit is also reached on the way to zero.
   const Wrench within = limit_total(left * last_, limits);
   const auto step = [&](double size, double max_slew) {
     return std::max((1 - left) * size, non_negative(max_slew * dt_s));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The size of a wrench, and how fast it changes: steps of WrenchChain. None of it allocates, locks
-/// or throws.
+/// The size of a wrench and its rate of change: steps of WrenchChain, without allocation or lock.
 #pragma once
 
 #include "core/wrench.h"
@@ -14,24 +13,24 @@ namespace spidar {
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
 /// Returns the wrench `dt_s` after `last`, with a bounded change of force and torque per second. A
-/// wrench above the total limits, because they were lowered, comes straight down to them before it
-/// turns towards `wanted`: on a way aside, it would fall by less than each step. There is no step
-/// towards `wanted` if it is not finite, or if `dt_s` is zero, negative or not a number.
+/// wrench above lowered total limits comes straight down to them before it turns towards `wanted`:
+/// on a curved way, it would fall by less than each step. There is no step towards `wanted` if it
+/// is not finite, or if `dt_s` is zero, negative or not a number.
 Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
                   const SafetyLimits& limits) noexcept;
 
-/// Ramps the wrench to rest when commands stop, and back when they begin. The ramp is level at both
+/// Ramps the wrench to zero when commands stop, and back when they begin. The ramp is level at both
 /// ends, so that there is neither a step nor a corner, and a command that is a little late makes
 /// hardly any difference.
 class StaleRamp {
  public:
-  /// Returns the fraction of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh`: there
-  /// is a valid command now. A ramp_s of zero switches at once.
+  /// Returns the fraction of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh` says
+  /// that there is a valid command now. A ramp_s of zero switches at once.
   double apply(bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
   void reset() noexcept { way_ = 0; }
   double fraction() const noexcept { return way_ * way_ * (3 - 2 * way_); }
 
-  /// Slope of the steepest part, relative to a straight line.
+  /// The slope of the steepest part, relative to a straight line.
   static constexpr double kSteepest = 1.5;
 
  private:
@@ -40,34 +39,33 @@ class StaleRamp {
 
 /// The rates of a wrench: the ramp and the slew limit.
 ///
-/// On the way to rest, the stale fraction is the last step, so that no slew setting, however low,
+/// On the way to zero, the stale fraction is the last step, so that no slew setting, however low,
 /// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
 /// that both together do not exceed that limit. A fresh command therefore changes by at most
 /// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
 class WrenchLimits {
  public:
   /// Returns the wrench to apply, `dt_s` after the last call. `wanted` is within `limits`. If not
-  /// `fresh`, it is ignored, and the wrench applied last ramps to exactly zero.
+  /// `fresh`, it is ignored, and the last applied wrench ramps to exactly zero.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
   /// The next apply() continues from `at`, to which the brake has reduced the last result.
   void continue_from(const Wrench& at) noexcept { last_ = at; }
 
-  /// The device did not receive the result of the last apply(): the next call continues from the
-  /// wrench before it.
+  /// Tells that the device did not receive the result of the last apply(): the next call continues
+  /// from the wrench before.
   void undo() noexcept;
   /// The wrench from which the next apply() continues.
   const Wrench& last() const noexcept { return last_; }
   /// Whether commands are fresh, and have been for the whole ramp.
   bool is_ramped() const noexcept { return stale_.fraction() >= 1; }
 
-  /// Sets the state to rest, as after construction.
   void reset() noexcept;
 
  private:
   Wrench last_;
   StaleRamp stale_;
-  Wrench last_before_;  ///< the last apply()
+  Wrench last_before_;  ///< before the last apply()
   StaleRamp stale_before_;
 };
 

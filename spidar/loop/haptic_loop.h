@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The 1 ms cycle: time → wrench → limits → grip → pose.
 #pragma once
 
 #include <array>
@@ -29,14 +28,14 @@ namespace spidar {
 
 class IdleWatch {
  public:
-  /// Time without a force or a movement after which the device is idle.
+  /// The time without a force or a movement after which the device is idle.
   static constexpr double kAfter_s = 300;
   /// If the grip has moved further than this, somebody holds it.
   static constexpr double kMove_m = 5e-3;
 
-  /// To be called in each tick, `dt_s` after the last one. `wanted`: a force is wanted. Returns
-  /// true once there has been neither a force nor a movement for kAfter_s, and false again as soon
-  /// as there is either.
+  /// Call this in each tick, `dt_s` after the last one. `wanted` says that a force is wanted.
+  /// Returns true once there has been neither a force nor a movement for kAfter_s, and false again
+  /// as soon as there is either.
   bool idle(bool wanted, const Eigen::Vector3d& position_m, double dt_s) noexcept {
     if (wanted || (position_m - from_m_).norm() > kMove_m) {
       from_m_ = position_m;
@@ -53,24 +52,23 @@ class IdleWatch {
   double rested_s_ = 0;
 };
 
-/// The loop without its thread: the owner calls tick(). The object is large (about 2 MB), so do not
-/// put it on the stack.
+/// The 1 ms cycle, time → wrench → limits → grip → pose, without its thread: the owner calls
+/// tick(). The object is large (about 2 MB), so do not put it on the stack.
 class HapticLoop {
  public:
-  /// Time in which tensions rise from zero to rest after the device is opened.
+  /// The time in which tensions rise from zero to rest after the device is opened.
   static constexpr double kEnergise_s = 0.2;
-  /// Time in which tensions fall to zero before the device is closed.
+  /// The time in which tensions fall to zero before the device is closed.
   static constexpr double kRelease_s = 0.05;
-  /// Number of failed exchanges in a row after which a device is lost.
+  /// The number of failed exchanges in a row after which a device is lost.
   static constexpr int kMaxErrors = MissingAnswers::kMax;
-  /// Upper bound of the time for which a force rises in one tick, however late that is, so that a
-  /// stall does not end in a step. What falls does so in the time that has passed.
+  /// The longest time for which a force rises in one tick, however late that is, so that a stall
+  /// does not end in a step. Falling values fall in the time that has passed.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
   static constexpr size_t kForces = 1024, kRecords = 4096;  ///< ticks that are stored of each
 
-  /// `grip` is opened by open().
+  /// open() opens `grip`.
   explicit HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits = {});
-  /// Closes the grip if that has not been done.
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
   HapticLoop& operator=(const HapticLoop&) = delete;
@@ -80,8 +78,7 @@ class HapticLoop {
   /// Schedules a wrench for the running time `entry.time_ns` on the screen. Returns false when the
   /// ring is full because the loop does not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept { return schedule_.push(entry); }
-  /// Hands over samples of a track, in the order of their times. Where there are samples, they are
-  /// rendered instead of frames.
+  /// Schedules samples of a track, in the order of their times. Samples replace frames.
   bool schedule(const TrackBlock& block) noexcept { return schedule_.push(block); }
 
   // --- any thread
@@ -93,15 +90,14 @@ class HapticLoop {
     touch_mailbox_.store(touch, std::memory_order_release);
   }
 
-  /// The callback is asked for a wrench in every tick in which the pose is known. Its wrench is
-  /// added to the wanted one, before every safety step.
+  /// The loop calls this for a wrench in every tick in which the pose is known, and adds that to
+  /// the wanted one, before every safety step.
   WrenchCallback& callback() noexcept { return callback_; }
   const WrenchCallback& callback() const noexcept { return callback_; }
 
   /// Discards everything that was scheduled before this call (flush).
   void cancel_scheduled() noexcept { schedule_.cancel(); }
 
-  /// One caller at a time.
   void set_playback_clock(const PlaybackClock& clock) noexcept { shared_clock_.store(clock); }
   /// One caller at a time. From the next tick on, the force approaches a new total limit at the
   /// slew limit. A grip that can fly gets at most GripTraits::most_force_N().
@@ -109,25 +105,23 @@ class HapticLoop {
 
   LoopSnapshot snapshot() const noexcept { return snapshot_.load(); }
 
-  /// Time from when each frame was due on the screen until its wrench was reached.
+  /// The time from when each frame was due on the screen until its wrench was reached.
   const LatencyHistogram& skew() const noexcept { return schedule_.skew(); }
 
-  /// Takes the oldest tick that was not read, for one reader. Ticks are dropped if they are not
-  /// read.
+  /// Takes the oldest unread tick, for one reader. Ticks are dropped if they are not read.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
-  /// Takes only the forces of the oldest tick, for another reader. Those of kForces ticks are kept;
-  /// later ones are dropped until some are taken.
+  /// Takes only the forces of the oldest tick, for another reader. Those of kForces ticks are
+  /// stored; later ones are dropped until some are taken.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Why a lost device cannot be opened again although something is there, such as another device
   /// under its name. Empty while nothing is there, and until a reason has occurred twice in a row,
-  /// because the first may pass: udev needs a moment to permit what is plugged in.
+  /// because the first may pass: udev needs a moment to permit a new device.
   std::string refusal() const;
 
-  /// The grip, for its description, name and health.
   const Grip& grip() const noexcept { return *grip_; }
 
-  /// From the next tick on, all that pulls ramps to zero; see released().
+  /// From the next tick on, everything that pulls ramps to zero; see released().
   void begin_close() noexcept { closing_.store(true, std::memory_order_release); }
 
   // --- loop thread, or while there is none
@@ -152,8 +146,7 @@ class HapticLoop {
   /// lost or closed.
   bool released() const noexcept;
 
-  /// Closes the device at once, which sets the motors to zero without a ramp if they are not at
-  /// zero.
+  /// Closes the device at once, which sets the motors to zero without a ramp.
   void close() noexcept;
 
  private:
@@ -162,8 +155,8 @@ class HapticLoop {
     double rises_s = 0;  ///< at most kMaxStep_ns
     double falls_s = 0;
   };
-  /// The mean time between answers, by which the force is limited, has this time constant: a hand
-  /// that is let go is stopped within it, and one late answer in a hundred hardly counts.
+  /// The time constant of the mean time between answers, by which the force is limited: within it a
+  /// released hand is stopped, and one late answer in a hundred hardly counts.
   static constexpr double kLateness_s = 0.1;
 
   void energise() noexcept;
@@ -184,7 +177,7 @@ class HapticLoop {
   void publish(const TickRecord& record) noexcept;
 
   const std::unique_ptr<Grip> grip_;
-  // Shared.
+  // Shared between threads.
   LoopSchedule schedule_;
   SpscRing<TickRecord, kRecords> records_;
   SpscRing<ForceTick, kForces> forces_;
@@ -198,7 +191,7 @@ class HapticLoop {
   // Loop thread only.
   PlaybackClock clock_;
   Wrench exerted_;     ///< delivered by the last acknowledged command
-  Wrench above_rest_;  ///< the part of it that was asked for, but for the torque
+  Wrench above_rest_;  ///< its requested part, without the torque
   Pose at_;            ///< after the last exchange
   touch::Rendering touch_;
   WrenchLimits safety_;
@@ -209,8 +202,8 @@ class HapticLoop {
   double power_ = 0;               ///< GripCommand::power
   double acknowledged_power_ = 0;  ///< of the last acknowledged command, from which it continues
   MissingAnswers missing_;
-  int64_t unanswered_ns_ = 0;  ///< since the last tick that the device has answered
-  double late_s_ = 0;          ///< mean by which an answer comes later than a tick after the last
+  int64_t unanswered_ns_ = 0;  ///< since the last answered tick
+  double late_s_ = 0;          ///< mean delay of an answer beyond a tick after the last
   uint64_t gap_ticks_ = 0;     ///< since the newest frame was over
   int64_t untrusted_ns_ = 0;   ///< time for which the pose has not been trusted
   int64_t unfelt_ns_ = 0;      ///< time for which no command was strong enough to be felt

@@ -61,7 +61,7 @@ TimelineResult LoopSchedule::read_track(bool playing, int64_t running_ns) noexce
   return playing ? track_.at(running_ns, next) : TimelineResult();
 }
 
-/// The oldest block ends later than what is asked for: all earlier ones have been read.
+/// If the oldest block ends later than the requested time, all earlier ones have been read.
 int64_t LoopSchedule::time_to_ask_for(int64_t running_ns, int64_t lag_ns) noexcept {
   const auto* const block = blocks_.front();
   if (block && block->generation == timeline_generation_) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The wrenches to render, by running time: the streaming thread pushes them, the loop finds them.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +17,9 @@ namespace spidar {
 /// is known for less time than that, the device renders the wrench late, by an even delay.
 class LookAhead {
  public:
-  /// The time to ask for at `running_ns`, with wrenches known up to `known_ns`. It hardly ever goes
-  /// back, and passes `known_ns` only after `running_ns` has: then the film has stopped, and the
-  /// wrench expires.
+  /// Returns the time to request at `running_ns`, with wrenches known up to `known_ns`. The time
+  /// hardly ever goes back, and passes `known_ns` only after `running_ns` has: then the film has
+  /// stopped, and the wrench expires.
   int64_t ask_for(int64_t running_ns, int64_t lag_ns, int64_t known_ns) noexcept {
     const int64_t passed_ns = std::clamp<int64_t>(running_ns - before_ns_, 0, kLongest_ns);
     before_ns_ = running_ns;
@@ -30,7 +29,7 @@ class LookAhead {
     late_ns_ = lag_ns - lead_ns;
     return running_ns + lead_ns;
   }
-  /// Nothing is known any more.
+  /// Tells that nothing is known any more.
   void reset() noexcept {
     ahead_ns_ = kFarAhead_ns;
     late_ns_ = 0;
@@ -43,33 +42,35 @@ class LookAhead {
   /// counts. When it has grown, wrenches follow one another faster by 1/kCatchUp, 10 %, until the
   /// delay is made up for.
   static constexpr int64_t kCatchUp = 10;
-  /// The longest step of time that counts, so that a jump counts as no more.
+  /// The longest step of time that counts, which limits the effect of a jump.
   static constexpr int64_t kLongest_ns = 10'000'000;
   static constexpr int64_t kFarAhead_ns = INT64_MAX / 2;
 
   int64_t before_ns_ = 0;
-  int64_t ahead_ns_ = kFarAhead_ns;  ///< for which the film is always known ahead
+  int64_t ahead_ns_ = kFarAhead_ns;  ///< how far ahead the film is always known
   int64_t late_ns_ = 0;
 };
 
-/// Wrenches of frames and samples of a track. Each entry carries the generation in which it was
-/// pushed, and cancel() begins another:
+/// The wrenches of frames and samples of a track by running time, which the streaming thread pushes
+/// and the loop finds. Each entry carries the generation in which it was pushed, and cancel()
+/// begins another:
 ///
 /// - A ring holds entries in the order of their generations, because one thread pushes.
 /// - The timeline and the track hold entries of timeline_generation_ only.
 /// - find() drops entries of earlier generations. It leaves those of a later one in the ring: they
-///   were pushed after a cancel() that followed its look at the generation, and are for the next
+///   were pushed after a cancel() that followed its check of the generation, and are for the next
 ///   tick.
 class LoopSchedule {
  public:
   /// A wrench enters the timeline this long before the previous one is due, so that the slope there
   /// is known at any frame rate. Later wrenches wait in the ring, so that a long queue of frames
-  /// before the screen does not displace the wrench that is due.
+  /// before the screen does not displace the due wrench.
   static constexpr int64_t kHorizon_ns = 100'000'000;
 
   // --- streaming thread
 
-  /// False when the ring is full because the loop does not run, does not play, or is far behind.
+  /// Returns false when the ring is full because the loop does not run, does not play, or is far
+  /// behind.
   bool push(const TimedWrench& entry) noexcept {
     return wrenches_.push({generation_.load(std::memory_order_acquire), entry});
   }
@@ -82,23 +83,22 @@ class LoopSchedule {
   /// Discards everything that was pushed before this call.
   void cancel() noexcept { generation_.fetch_add(1, std::memory_order_acq_rel); }
 
-  /// Time from when each frame was due on the screen until its wrench was reached.
+  /// The time from when each frame was due on the screen until its wrench was reached.
   const LatencyHistogram& skew() const noexcept { return skew_; }
 
   // --- loop thread
 
-  /// The wrench to be sent at this moment to a device that renders it later by `lag_ns`; nothing
-  /// unless playing. Where there are samples of a track, they are rendered instead of frames.
+  /// The wrench to send at this moment to a device that renders it later by `lag_ns`; nothing
+  /// unless playing. Samples of a track replace frames.
   TimelineResult find(bool playing, int64_t running_ns, int64_t lag_ns = 0) noexcept;
 
-  /// How much later than its frame the device renders what was found last.
+  /// How much later than its frame the device renders the last found wrench.
   int64_t late_ns() const noexcept { return look_ahead_.late_ns(); }
-  /// How much later than its motion the wrench of the frame reached last came, because the frame
+  /// How much later than its motion the wrench of the last reached frame came, because the frame
   /// became known too late.
   int64_t motion_late_ns() const noexcept { return motion_late_ns_; }
 
-  /// Number of wrenches, since the last call, whose time was not later than that of the previous
-  /// one.
+  /// The number of wrenches since the last call whose time was not later than the previous one's.
   uint64_t take_refused() noexcept;
 
  private:
@@ -114,7 +114,7 @@ class LoopSchedule {
   void take_wrenches(bool playing, int64_t running_ns) noexcept;
   TimelineResult read_track(bool playing, int64_t running_ns) noexcept;
 
-  // Shared.
+  // Shared between threads.
   SpscRing<Scheduled<TimedWrench>, 256> wrenches_;
   SpscRing<Scheduled<TrackBlock>, 64> blocks_;
   std::atomic<uint32_t> generation_{0};
@@ -127,7 +127,7 @@ class LoopSchedule {
   int64_t known_ns_ = INT64_MIN;   ///< until when frames or samples are known
   int64_t newest_ns_ = INT64_MIN;  ///< running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
-  int64_t reached_ns_ = INT64_MIN;  ///< running time of the frame reached last
+  int64_t reached_ns_ = INT64_MIN;  ///< running time of the last reached frame
   int64_t motion_late_ns_ = 0;
   uint64_t refused_ = 0;
 };

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The thread that runs the haptic loop once a millisecond.
 #pragma once
 
 #include <atomic>
@@ -15,8 +14,8 @@
 
 namespace spidar {
 
-/// Next deadline after a tick for `deadline_ns` that ended at `now_ns`: one period later, or the
-/// first deadline of the same grid that is still ahead. Missed ticks are skipped: a burst of
+/// The next deadline after a tick for `deadline_ns` that ended at `now_ns`: one period later, or
+/// the first deadline of the same grid that is still ahead. Missed ticks are skipped: a burst of
 /// exchanges would have no effect on the motors, and a thread that never sleeps would occupy a
 /// processor.
 constexpr int64_t next_deadline_ns(int64_t deadline_ns, int64_t now_ns) noexcept {
@@ -25,12 +24,12 @@ constexpr int64_t next_deadline_ns(int64_t deadline_ns, int64_t now_ns) noexcept
   return next + ((now_ns - next) / kTick_ns + 1) * kTick_ns;
 }
 
-/// Runs a loop whose device is open, in a thread named "spidar-haptic". Deadlines are absolute, so
-/// that delays do not accumulate. A lost device is reopened every kRetry_ns until that succeeds.
+/// Runs a loop whose device is open once a millisecond, in a thread named "spidar-haptic".
+/// Deadlines are absolute, so that delays do not accumulate. A lost device is reopened every
+/// kRetry_ns until that succeeds.
 ///
 /// Memory is not locked, because mlockall() would affect the whole process, which belongs to the
-/// player. All data that a tick uses is in the loop object and is accessed a thousand times a
-/// second.
+/// player. All data of a tick is in the loop object and is accessed a thousand times a second.
 class LoopThread {
  public:
   static constexpr int64_t kRetry_ns = 250'000'000;
@@ -50,10 +49,9 @@ class LoopThread {
     thread_ = start_thread("spidar-haptic", std::move(body));
     scheduling_ = scheduling.get();
   }
-  /// Calls stop().
   ~LoopThread() { stop(); }
 
-  /// Ramps to zero, closes the device, ends the thread. Safe to call twice.
+  /// Ramps to zero, closes the device, ends the thread. May be called twice.
   void stop() noexcept {
     loop_.begin_close();
     if (thread_.joinable()) thread_.join();

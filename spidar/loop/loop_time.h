@@ -10,7 +10,7 @@ namespace spidar {
 constexpr int64_t kTick_ns = 1'000'000;  ///< 1 kHz
 constexpr double kTick_s = 1e-9 * kTick_ns;
 
-/// Line through one observation: running time presented = running_ns + (t − monotonic_ns) · rate,
+/// A line through one observation: running time presented = running_ns + (t − monotonic_ns) · rate,
 /// t on CLOCK_MONOTONIC. The streaming thread refreshes it, the haptic thread reads it.
 struct PlaybackClock {
   int64_t monotonic_ns = 0;
@@ -21,7 +21,7 @@ struct PlaybackClock {
   /// still leaves a picture on the screen, and its force must not act indefinitely.
   int64_t valid_until_ns = INT64_MAX;
 
-  /// Whether frames are shown at `t_ns` of CLOCK_MONOTONIC, as far as is known.
+  /// Whether frames are shown at `t_ns` of CLOCK_MONOTONIC, as far as known.
   bool plays_at(int64_t t_ns) const noexcept { return playing && t_ns < valid_until_ns; }
 
   int64_t running_at(int64_t t_ns) const noexcept {

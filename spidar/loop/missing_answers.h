@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether a device still counts as connected.
 #pragma once
 
 #include <algorithm>
 
 namespace spidar {
 
-/// A device is lost after kMax exchanges in a row without an answer, and also if more than half of
-/// them lastingly have none: each answer makes up for one that is missing.
+/// Decides whether a device still counts as connected. A device is lost after kMax exchanges in a
+/// row without an answer, and also if more than half of them lastingly have none: each answer makes
+/// up for one that is missing.
 class MissingAnswers {
  public:
   static constexpr int kMax = 20;

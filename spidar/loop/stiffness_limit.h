@@ -17,11 +17,10 @@ namespace spidar {
 constexpr double kUnmeasuredStiffness_N_m = 200;
 constexpr double kUnmeasuredLag_s = 0.005;
 
-/// Half a tick for the zero-order hold of the force, and one tick because the pose comes from the
-/// last exchange.
+/// Half a tick for the zero-order hold of the force; the pose is a tick old.
 constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
 
-/// Delay from a motion of the grip to the resulting force: t_d in docs/strings.md.
+/// The delay from a motion of the grip to the resulting force: t_d in docs/strings.md.
 constexpr double surface_delay_s(double drive_lag_s) noexcept {
   return kLoopDelay_s + drive_lag_s;
 }
@@ -35,15 +34,15 @@ inline double most_stiffness_N_m(double drive_lag_s) noexcept {
 }
 
 /// The largest stiffness for a device with these drives, N/m. Measurements with a light hand were
-/// stable up to kMaxStiffness_N_m at a delay of 3.5 ms (docs/strings.md). The damping that the
-/// hand must contribute grows with stiffness · delay, so a longer delay lowers the limit in
-/// proportion. Without a known delay, it is kUnmeasuredStiffness_N_m.
+/// stable up to kMaxStiffness_N_m at a delay of 3.5 ms (docs/strings.md). The damping that the hand
+/// must contribute grows with stiffness · delay, so a longer delay lowers the limit in proportion.
+/// Without a known delay, the limit is kUnmeasuredStiffness_N_m.
 inline double most_stiffness_N_m(const Profile& profile) noexcept {
   const double most_N_m = most_stiffness_N_m(profile.drive_lag_s);
   return profile.drive_lag_known ? most_N_m : std::min(most_N_m, kUnmeasuredStiffness_N_m);
 }
 
-/// The lag of these drives, or the one to be assumed.
+/// The lag of these drives, or the one to assume.
 inline double assumed_lag_s(const Profile& profile) noexcept {
   return profile.drive_lag_known ? profile.drive_lag_s : kUnmeasuredLag_s;
 }

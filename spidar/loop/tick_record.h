@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Inputs and results of one cycle of the haptic loop.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +21,7 @@ enum class DeviceState {
   kRunning,
   kClosing,  ///< wrench and tensions ramp down to zero
   kIdle,     ///< no force has been wanted for a long time: the motors are off
-  kLost,     ///< does not answer; reopening is tried repeatedly
+  kLost,     ///< does not answer; the loop tries to reopen it
 };
 
 /// "closed", "opening", "running", "closing", "idle", "lost".
@@ -61,28 +60,29 @@ constexpr const char* to_string(Found found) noexcept {
   return "unknown";
 }
 
-/// One tick. Also the row of the haptic trace. In a tick in which the device was lost, the report
-/// of the grip has the last pose, and neither wrench nor tensions.
+/// Inputs and results of one cycle of the haptic loop, and the row of the haptic trace. In a tick
+/// in which the device was lost, the report of the grip has the last pose, and neither wrench nor
+/// tensions.
 struct TickRecord : GripReport {
   uint64_t tick = 0;             ///< 1 for the first after open()
-  int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at which it began
+  int64_t monotonic_ns = 0;      ///< CLOCK_MONOTONIC at its beginning
   int64_t lateness_ns = 0;       ///< behind the deadline
   int64_t running_ns = 0;        ///< running time on the screen; 0 while not playing
-  int64_t frame_ns = INT64_MIN;  ///< running time of the frame whose wrench was reached last
+  int64_t frame_ns = INT64_MIN;  ///< running time of the last frame whose wrench was reached
   Found found = Found::kNothing;
-  /// The wrench from the timeline, plus the contact force and the callback's wrench; zero without
-  /// any of them.
+  /// The sum of the timeline's wrench, the contact force and the callback's wrench; zero without
+  /// any.
   Wrench wanted;
   /// The wrench after the steps of WrenchChain. If not acknowledged, the one of the last
   /// acknowledged tick, within the limits of this one.
   Wrench commanded;
-  bool acknowledged = true;  ///< the device has answered
+  bool acknowledged = true;  ///< whether the device has answered
   GripVelocity velocity;  ///< GripMotion::kLag_s behind `pose`; zero while no pose follows another
   bool brakes = false;    ///< see GripCommand
   bool held = true;       ///< false: nobody holds the grip, and the wrench is at rest or returning
   DeviceState device = DeviceState::kClosed;
   bool playing = false;
-  bool called_back = false;  ///< the application's callback was asked
+  bool called_back = false;  ///< whether the application's callback was called
   double max_force_N = 0;    ///< limits in effect
   double max_torque_Nm = 0;
   touch::Contact contact;  ///< with the touched surface; its force is part of `wanted`
@@ -101,7 +101,7 @@ struct LoopCounters {
   uint64_t overruns = 0;          ///< ticks that began more than one period late
   uint64_t missed_deadlines = 0;  ///< deadlines skipped because of that
   /// Ticks of playback without a force, because a frame was over and the next one had not come yet.
-  /// They count when it comes, so that the end of a film is no gap.
+  /// They count when the next frame comes, so that the end of a film is no gap.
   uint64_t gap_ticks = 0;
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;
@@ -109,7 +109,7 @@ struct LoopCounters {
   uint64_t rejected_wrenches = 0;  ///< not finite
   uint64_t refused_wrenches = 0;   ///< whose time is not later than that of the previous one
   uint64_t times_lost = 0;
-  uint64_t held_back_ticks = 0;  ///< in which the strings got less than was wanted, see GripReport
+  uint64_t held_back_ticks = 0;  ///< in which the strings got less than wanted, see GripReport
 };
 
 struct LoopSnapshot {

@@ -109,7 +109,7 @@ void TickTrace::flush() noexcept {
 
 LineWriter::Status TickTrace::status() const noexcept {
   LineWriter::Status status = file_.status();
-  // The header is the first line: it is written, or dropped.
+  // The header is the first line, and is written or dropped with the others.
   uint64_t& with_header = status.lines > 0 ? status.lines : status.dropped;
   if (with_header > 0) --with_header;
   status.dropped += missing_ticks_;
@@ -118,11 +118,11 @@ LineWriter::Status TickTrace::status() const noexcept {
 
 TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
     : loop_(loop), trace_(path) {
-  // After more ticks than are stored, the first ones would be followed by a gap.
+  // After more ticks than are stored, a gap would follow the first ones.
   const bool is_late = loop_.snapshot().counters.ticks >= HapticLoop::kRecords;
   for (TickRecord old; is_late && loop_.pop_record(old);) continue;
   if (!threaded) return;
-  // What reads from a pipe waits for it.
+  // The reader of a pipe waits for it.
   thread_ = start_thread("spidar-trace", [this, is_file = std::filesystem::is_regular_file(path)] {
     if (is_file) request_background();
     run(is_file);
@@ -147,7 +147,7 @@ void TraceThread::run(bool is_file) noexcept {
   }
 }
 
-/// With the lock.
+/// Call this with the lock held.
 void TraceThread::take_records() noexcept {
   TickRecord record;
   while (loop_.pop_record(record)) trace_.add(record);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The haptic trace: a CSV file with one row for each tick.
 #pragma once
 
 #include <condition_variable>
@@ -16,18 +15,19 @@
 
 namespace spidar {
 
-/// What users read of a tick: a new column is a row here with its value. A frame_ns of INT64_MIN,
-/// which means no frame, becomes −1.
+/// The columns of a tick in the haptic trace: a new column is a row here with its value. A frame_ns
+/// of INT64_MIN, which means no frame, becomes −1.
 void tick_fields(const TickRecord& record, FieldSink& to);
 
 /// Names of the columns, ending in their SI units, separated by commas, without a line end.
 std::string trace_header();
 
 /// Appends `record` as a row with a line end, in the order of trace_header(). Numbers are in the
-/// "C" locale and as short as possible to be read back exactly.
+/// "C" locale and as short as they can be read back exactly.
 void append_row(const TickRecord& record, std::string& csv);
 
-/// The trace file. Used by one thread at a time, which does not wait for the file (LineWriter).
+/// The haptic trace: a CSV file with one row for each tick. Used by one thread at a time, which
+/// does not wait for the file (LineWriter).
 class TickTrace {
  public:
   /// Creates or empties the file. Throws std::runtime_error with path and reason.
@@ -44,7 +44,7 @@ class TickTrace {
 
  private:
   LineWriter file_;
-  std::string row_;  ///< its memory is used again
+  std::string row_;  ///< kept because its memory is reused
   uint64_t last_tick_ = 0;
   uint64_t missing_ticks_ = 0;
 };
@@ -54,12 +54,11 @@ class TickTrace {
 class TraceThread {
  public:
   /// Throws std::runtime_error when the file cannot be written. `loop` must outlive this object.
-  /// Without `threaded`, records are only read by drain() and at the end.
+  /// Unless `threaded`, records are only read by drain() and at the end.
   TraceThread(const std::string& path, HapticLoop& loop, bool threaded);
-  /// Writes the remaining records.
   ~TraceThread();
 
-  /// Writes all records so far, as far as they are taken.
+  /// Writes all records so far, as far as the file accepts them.
   void drain() noexcept;
 
   /// The status when records were last taken. Does not wait for the file.

@@ -43,7 +43,7 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
                             const SafetyLimits& limits) noexcept {
   Called* const called = called_.load();
   if (called == nullptr) return {};
-  // After this, set() waits, unless it has taken the function away in between.
+  // From here on, set() waits, unless it has removed the function in between.
   running_.store(called);
   if (called_.load() != called) {
     running_.store(nullptr);
@@ -55,7 +55,7 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
     rest();
   }
   Wrench wrench = ask(*called, input);
-  // The safety chain refuses what is not finite.
+  // The safety chain refuses a wrench that is not finite.
   if (called->passive && wrench.is_finite()) {
     wrench = bounded(wrench, input, beside_N, path_of(limits, called->drive_lag_s));
   }
@@ -84,14 +84,14 @@ Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noe
 
 void WrenchCallback::stop(State why) noexcept {
   Called* called = running_.load();
-  // If set() has taken it away already, there is nothing to report.
+  // If set() has already removed the function, there is nothing to report.
   if (called_.compare_exchange_strong(called, nullptr)) {
     state_.store(why, std::memory_order_release);
   }
 }
 
-/// Without the torque, and with no more force than the hand has put in energy for since there was
-/// none.
+/// Drops the torque, and limits the force to the energy that the hand has put in since the force
+/// was last zero.
 Wrench WrenchCallback::bounded(const Wrench& wanted, const CallbackInput& input,
                                const Eigen::Vector3d& beside_N,
                                const touch::ForcePath& path) noexcept {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A function of the application that the loop asks for a wrench in every tick.
 #pragma once
 
 #include <array>
@@ -15,7 +14,6 @@
 
 namespace spidar {
 
-/// The input of a callback.
 struct CallbackInput {
   Pose pose;
   GripVelocity velocity;  ///< GripMotion::kLag_s behind the pose
@@ -23,8 +21,9 @@ struct CallbackInput {
   uint32_t buttons = 0;   ///< as GripReport::buttons
 };
 
-/// One thread sets the function, the loop calls it. A function that throws, or takes longer than
-/// kLongest_ns kSlowInARow times in a row, is not called again.
+/// A function of the application that the loop calls for a wrench in every tick. One thread sets
+/// the function, the loop calls it. A function that throws, or takes longer than kLongest_ns
+/// kSlowInARow times in a row, is not called again.
 class WrenchCallback {
  public:
   using Function = std::function<Wrench(const CallbackInput&)>;
@@ -37,9 +36,9 @@ class WrenchCallback {
   ~WrenchCallback() { set({}); }
 
   /// Replaces the function; an empty one removes it. When this returns, the previous function no
-  /// longer runs. Not to be called from within the function. May allocate. `passive`: the hand gets
-  /// no more energy than it has put in since the function last returned no force, and there is no
-  /// torque; this needs `drive_lag_s` ≥ 0, the lag of the device.
+  /// longer runs. Must not be called from within the function. May allocate. If `passive`, the hand
+  /// gets no more energy than it has put in since the function last returned no force, and there is
+  /// no torque; this needs `drive_lag_s` ≥ 0, the lag of the device.
   void set(Function function, bool passive = true, double drive_lag_s = 0.005);
 
   State state() const noexcept { return state_.load(std::memory_order_acquire); }
@@ -55,12 +54,12 @@ class WrenchCallback {
   Wrench call(const CallbackInput& input, const Eigen::Vector3d& beside_N,
               const SafetyLimits& limits) noexcept;
 
-  /// After call(): what the device gives for the sum, see touch::EnergyBudget.
+  /// Call this after call(), with what the device exerts for the sum, see touch::EnergyBudget.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
     budget_.deliver(given, turn_rad);
   }
 
-  /// To be called in a tick in which the pose is not known or the loop is closing.
+  /// Call this in a tick in which the pose is unknown or the loop is closing.
   void rest() noexcept {
     budget_ = {};
     has_position_ = false;
@@ -87,11 +86,11 @@ class WrenchCallback {
   std::array<char, 160> thrown_{};
   // Loop thread only.
   int slow_in_a_row_ = 0;
-  uint64_t last_ = 0;  ///< number of the function that was called last
+  uint64_t last_ = 0;  ///< number of the last called function
   touch::EnergyBudget budget_;
   Eigen::Vector3d position_m_ = Eigen::Vector3d::Zero();
   bool has_position_ = false;
-  bool pushes_ = false;  ///< the last wrench had a force
+  bool pushes_ = false;  ///< whether the last wrench had a force
 };
 
 }  // namespace spidar

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// From the wanted wrench to the commanded one: the limits that protect the
-/// hand, in their order.
+/// The limits that protect the hand, in order, from the wanted wrench to the commanded one.
 #pragma once
 
 #include <array>
@@ -16,36 +15,35 @@
 
 namespace spidar {
 
-/// The limits of one tick. The state of each is its owner's, the loop.
+/// The limits of one tick. The loop owns the state of each.
 class WrenchChain {
  public:
-  /// Returns what it leaves of the wrench that the step before it has left. The
-  /// chain runs its steps in the order of their list, and docs/architecture.md
-  /// has the same list (test `limit_chain`).
+  /// Returns what the step leaves of the wrench that it receives. The chain runs its steps in the
+  /// order of their list, and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
-    const char* reason;  ///< for the limit, or for its place
+    const char* reason;  ///< why the limit exists, or why it has this place
     Wrench (WrenchChain::*leave)(const Wrench&) noexcept;
   };
   static const std::array<Step, 8> kSteps;
 
   const SafetyLimits set;        ///< as they are set
-  const SafetyLimits in_effect;  ///< those, or what falls to them
+  const SafetyLimits in_effect;  ///< the set ones, or values that fall to them
   const SafetyLimits braking;    ///< those, or what the strings exert at rest
   VibrationBudget& vibration_budget;
   GripBrake& grip_brake;
   WrenchLimits& rate_limits;
   const GripTraits& traits;
   const GripMotion& motion;
-  bool fresh;       ///< a wrench is wanted, and may be exerted
+  bool fresh;       ///< whether a wrench is wanted, and may be exerted
   double rates_s;   ///< the time for which a force rises or falls in this tick
   double passed_s;  ///< since the last tick
   // Results.
   bool brakes = false;    ///< the brake may have changed the wrench
-  bool rejected = false;  ///< it was fresh, but not finite
+  bool rejected = false;  ///< whether it was fresh, but not finite
 
-  /// Takes `wanted` through all steps. Neither allocates, locks nor throws.
+  /// Passes `wanted` through all steps. Neither allocates, locks nor throws.
   Wrench apply(const Wrench& wanted) noexcept;
 
  private:

@@ -11,8 +11,7 @@
 namespace spidar {
 namespace {
 
-/// An object in front of a plain background hardly has more than this fraction of the picture's
-/// votes.
+/// An object in front of a plain background hardly has more than this fraction of the votes.
 constexpr double kMaxObject = 0.2;
 /// If this fraction of all votes is cast, two objects cannot have them all.
 constexpr double kTexturedFraction = 2 * kMaxObject;
@@ -29,8 +28,8 @@ constexpr double kExplained = 0.3;
 /// Two positions are connected if they are less than this apart in x and in y, px: blocks side by
 /// side are kBlock_px apart.
 constexpr double kConnected_px = 1.5 * kBlock_px;
-/// A thing is cut by so many borders of the picture at most, as a person of whom half is visible. A
-/// part of the scene that a straight edge bounds, as ground, ice or a wall, is cut by two or more.
+/// At most this many borders of the picture cut an object, such as a person of whom half is
+/// visible. More cut a part of the scene with a straight edge, such as ground, ice or a wall.
 constexpr int kMaxBorders = 1;
 
 ModelKind next(ModelKind kind, int step) {
@@ -99,15 +98,14 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
   is_textured_ = voting_ >= kTexturedFraction * votes.all;
 }
 
-/// Takes away all positions that are connected to `middle_px`, if together they are one thing
-/// however large.
+/// Removes all positions connected to `middle_px`, if together they are one object of any size.
 void BackgroundEstimator::take_connected_to(const Eigen::Vector2d& middle_px,
                                             const Eigen::Vector2d& size_px) {
   const auto middle = std::find(positions_px_.begin(), positions_px_.end(), middle_px);
   std::iter_swap(positions_px_.begin(), middle);
   const Eigen::Array2d inner_px = size_px.array() / 2 - kBlock_px;
   bool left = false, right = false, above = false, below = false;
-  auto end = positions_px_.begin() + 1;  // of those that are connected
+  auto end = positions_px_.begin() + 1;  // of the connected positions
   for (auto it = positions_px_.begin(); it != end; ++it) {
     left |= it->x() < -inner_px.x();
     right |= it->x() > inner_px.x();
@@ -123,9 +121,9 @@ void BackgroundEstimator::take_connected_to(const Eigen::Vector2d& middle_px,
 
 /// Whether the positions_px_, which it empties, are of more than one object in front of a plain
 /// background, or of more than two if the model is above a translation. That is so when kMinVotes
-/// are left after the objects have been taken away: circles that cover kMaxObject of the
-/// picture, each around a position with the most others in it; and, if they all move alike, what is
-/// connected to that position.
+/// are left after the objects have been removed: circles that cover kMaxObject of the picture, each
+/// around a position with the most others in it; and, if they all move alike, the positions that
+/// are connected to that position.
 bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
                                         const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
@@ -133,7 +131,7 @@ bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
   for (int n = 0; n < objects; ++n) {
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
-    // Of many positions, every second one, and so on: this bounds the time.
+    // Of many positions, every second one is taken, and so on, which bounds the time.
     const size_t step = 1 + positions_px_.size() / kMaxTries;
     for (size_t i = 0; i < positions_px_.size(); i += step) {
       size_t near = 0;
@@ -174,9 +172,8 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 }
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
-/// others may be those of objects in front of a plain background, which it is not if most of the
-/// picture is new. What has been taken for objects moves alike: it is left out, lest it count as
-/// several.
+/// others may be those of objects in front of a plain background, unless most of the picture is
+/// new. Votes of objects move alike: they are left out, lest they count as several objects.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMaxObject * voting_) return true;
   if (votes.with_edges || voting_ < kMaxObject * votes.all) return !votes.are_lost;
@@ -189,8 +186,7 @@ bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes&
   return !is_background(ModelKind::kSimilarity, false, votes.size_px);
 }
 
-/// Returns false when the votes do not determine such a model, or when it does not cover the
-/// picture.
+/// Returns false when the votes do not determine such a model, or it does not cover the picture.
 bool BackgroundEstimator::score(ModelKind kind, const MotionModel& start,
                                 const BackgroundVotes& votes, Scored& scored) {
   const auto model = fit_robustly(kind, start, evidence_);
@@ -217,7 +213,7 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
   return inliers > outliers && cost < kExplained * inliers;
 }
 
-/// Looks for a more general model that is better. Returns false when there is none.
+/// Searches a more general model that is better. Returns false when there is none.
 bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
                                 Scored& current) {
   bool climbed = false;
@@ -244,11 +240,11 @@ void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVote
   current = best;
 }
 
-/// Uses the median, because some objects that move by themselves may not have been recognised yet.
-/// Where little agrees with the model, the picture is plain, or so blurred that the model is
-/// wrong; the noise is then assumed to be that of good pictures. Rest that few blocks agree with is
-/// noise, if most of the picture has texture. Where the camera's motion is unknown, so is the
-/// noise.
+/// Learns the noise as a median, because some moving objects may not have been recognised yet.
+/// Where few votes agree with the model, the picture is plain, or so blurred that the model is
+/// wrong; the noise is then assumed to be that of good pictures. A model of rest with which few
+/// blocks agree is noise, if most of the picture has texture. Where the camera's motion is unknown,
+/// so is the noise.
 void BackgroundEstimator::learn_noise() {
   if (!background_.is_known) return;
   double found_px = kUsualNoise_px;

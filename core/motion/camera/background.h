@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the motion of the background, and thereby that of the camera.
 #pragma once
 
 #include <optional>
@@ -10,16 +9,15 @@
 
 namespace spidar {
 
-/// Votes of a block at the border of the picture, which counts as two blocks elsewhere, because
-/// objects are rarely there.
+/// The votes of a block at the border of the picture, which counts as two blocks elsewhere, because
+/// objects are rare there.
 constexpr double kBorderVotes = 2;
-/// Weight of the newest frame in what is learnt from frame to frame.
+/// The weight of the newest frame in values that are learnt from frame to frame.
 constexpr double kNewestWeight = 0.4;
-/// The least number of votes that say anything about the background.
+/// Fewer votes say nothing about the background.
 constexpr size_t kMinVotes = 12;
 
-/// The deviation beyond which a vote is an outlier if the noise is `noise_px`, px of the field's
-/// picture.
+/// The deviation, px of the field's picture, beyond which a vote is an outlier at this noise.
 double vote_reach_px(double noise_px);
 
 /// A displacement from which the camera's motion is estimated.
@@ -36,13 +34,13 @@ struct BackgroundVotes {
   std::vector<BackgroundVote> cast;
   double all = 0;                 ///< votes of the whole picture, including its textureless parts
   Eigen::Vector2d size_px{1, 1};  ///< of the picture
-  /// Edges vote, too. Those of coding errors agree on no motion, which does not make the camera's
-  /// motion unknown.
+  /// Whether edges vote, too. Edges of coding errors agree on no motion, which does not make the
+  /// camera's motion unknown.
   bool with_edges = false;
-  /// Votes are few because most of the picture is not found in the previous one, as in a fade while
-  /// the camera moves fast. The background must not be taken for a plain one at rest then.
+  /// Whether votes are few because most of the picture is not found in the previous one, as in a
+  /// fade while the camera moves fast. Then the background must not count as plain and at rest.
   bool are_lost = false;
-  /// Each vote is that of an area so large that no object has several areas to itself.
+  /// Whether the votes are of coarse blocks, which are so large that no object has several.
   bool of_areas = false;
 
   /// Votes of all points together, without their weights.
@@ -56,36 +54,35 @@ struct BackgroundVotes {
 /// The same background in smaller pixels: `scale` of them make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Keeps the previous frame's kind of model while it explains the votes, unless a simpler kind has
-/// a smaller GRIC; otherwise moves on to each more general kind with a smaller GRIC, until one
-/// explains the votes.
+/// Finds the motion of the background, and thereby that of the camera. Keeps the previous frame's
+/// kind of model while it explains the votes, unless a simpler kind has a smaller GRIC; otherwise
+/// moves on to each more general kind with a smaller GRIC, until one explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When there are so few votes that two objects may have cast them all, a
 /// translation needs votes in two positions that are too far apart for one object, and a more
-/// general model needs them in three. Votes that agree and are connected are one object's, however
-/// large, unless two borders of the picture cut it. Rest needs no votes, because a plain background
-/// casts none. But where there are votes in three positions, more than objects have, and hardly any
-/// agrees with the model that explains them best, the camera's motion is unknown. It is also
-/// unknown if votes are few because most of the picture is new.
+/// general model needs them in three. Votes that agree and are connected belong to one object of
+/// any size, unless two borders of the picture cut it. Rest needs no votes, because a plain
+/// background casts none. But where there are votes in three positions, more than objects have, and
+/// hardly any agrees with the model that explains them best, the camera's motion is unknown. It is
+/// also unknown if votes are few because most of the picture is new.
 ///
 /// Models compete by the GRIC (Torr: Geometric motion segmentation and model selection, Phil.
 /// Trans. R. Soc. A 356, 1998): Σ w ρ(e²) + λ₁ d n + λ₂ k, ρ(e²) = min(e²/σ², λ₃ (r − d)), with r =
 /// 4 coordinates of a pair, d = 2 for all models, k parameters, λ₁ = ln r, λ₂ = ln(r n), λ₃ = 2.
 /// The model with the smallest value wins. More general models are only fitted in frames in which
-/// the one in use does not explain the votes.
+/// the present one does not explain the votes.
 class BackgroundEstimator {
  public:
   BackgroundEstimator();
 
-  /// The background that the votes of one frame show. It is not kept.
+  /// Returns the background by the votes of one frame, without storing it.
   Background propose(const BackgroundVotes& votes);
-  /// Keeps the background with which the next frame is compared.
+  /// Stores the background for comparison with the next frame.
   const Background& keep(const Background& background) { return background_ = background; }
 
-  /// Learns the noise of the displacements from the votes on the background that was kept, for use
-  /// in the next frame. Votes for which `moves(source)` is true are left out: they move by
-  /// themselves.
+  /// Learns the noise of the displacements from the votes on the stored background, for the next
+  /// frame. Leaves out votes for which `moves(source)` is true: they move by themselves.
   template <typename Moves>
   void learn_noise(const BackgroundVotes& votes, Moves&& moves) {
     residuals_px_.clear();
@@ -102,7 +99,7 @@ class BackgroundEstimator {
   /// For the tests and the benchmark: number of models that were fitted for the last frame.
   int fitted() const { return fitted_; }
 
-  /// Forgets everything, after a cut or a seek.
+  /// Call this after a cut or a seek.
   void reset();
 
  private:
@@ -132,7 +129,7 @@ class BackgroundEstimator {
   std::optional<Scored> of_objects_;  ///< the model with most votes that is not the background's
   double effective_points_ = 0;
   double voting_ = 0;         ///< votes of all points together
-  bool is_textured_ = false;  ///< most of the picture votes
+  bool is_textured_ = false;  ///< whether most of the picture votes
   double noise_px_ = 0;
   int fitted_ = 0;
   Background background_;

@@ -13,14 +13,14 @@ namespace {
 
 /// Blocks this close to the border of the picture count as being at the border.
 constexpr int kBorderBlocks = 2;
-/// Smaller eigenvalue of the structure tensor, (grey / px)²: the vote of a block approaches a full
-/// one well above it.
+/// The smaller eigenvalue of the structure tensor, (grey / px)²: the vote of a block approaches a
+/// full one well above it.
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
 
 /// The weight of a vote rises with the structure that the block has in both directions, and falls
-/// with the residual of its motion; for a block that moved by itself until now it is half.
+/// with the residual of its motion; a block that moved by itself until now has half the weight.
 /// `texture_scale` is 1, or kAreaTextureScale.
 double weight_of(const MotionBlock& block, double texture_scale, float persistence) {
   const double texture = static_cast<double>(block.weakest_texture());
@@ -34,24 +34,24 @@ BackgroundVote vote_of(const MotionBlock& block, double weight, bool at_border, 
   return {{block.centre_px.cast<double>() - moved_px, moved_px}, weight, at_border, source};
 }
 
-/// Forgets the votes of the previous frame, but keeps the memory.
 void clear_votes(BackgroundVotes& votes) {
   votes.cast.clear();
   votes = {.cast = std::move(votes.cast)};
 }
 
-/// How an edge moves along itself is not known.
+/// The motion of an edge along itself is unknown.
 bool may_vote(const MotionBlock& block, bool with_edges) {
   return with_edges ? block.has_texture() && block.weakest_texture() > 0 : block.has_corners();
 }
 
-/// Right to half a pixel, as all motion is before it is refined.
+/// Whether the block rests to half a pixel, the precision of all motion before it is refined.
 bool is_at_rest(const MotionBlock& block) {
   return std::hypot(block.moved_px.x(), block.moved_px.y()) < kMaxOff_px / 2;
 }
 
-/// The votes of single blocks, which count twice at the border of the picture. Rest at the border
-/// counts once: graphics are mostly there, whereas a camera at rest shows it all over the picture.
+/// Collects the votes of single blocks, which count twice at the border of the picture. Rest at the
+/// border counts once: graphics are mostly there, whereas a camera at rest shows rest all over the
+/// picture.
 void collect_blocks(const BlockField& field, const PreviousFrame& past, bool with_edges,
                     BackgroundVotes& votes) {
   clear_votes(votes);
@@ -83,7 +83,7 @@ bool have_corners_together(const BackgroundVotes& votes, const BlockField& field
   return static_cast<double>(roundness(together)) > MotionBlock::kMinRoundness;
 }
 
-/// Whether most of the blocks of an area vote themselves. `middle_px` is from the picture's corner.
+/// Whether most blocks of a coarse block vote themselves. `middle_px` is from the picture's corner.
 bool blocks_have_corners(const BlockField& field, const Eigen::Vector2d& middle_px) {
   const BlockGrid& grid = field.grid();
   constexpr double kToFirst_px = kBlock_px * (kCoarser - 1) / 2.0;
@@ -98,8 +98,8 @@ bool blocks_have_corners(const BlockField& field, const Eigen::Vector2d& middle_
   return corners > kCoarser * kCoarser / 2;
 }
 
-/// Whether more of the picture is lost than found, and at least kMinVotes of it: a ball that
-/// bounces before a plain wall may be all that is lost.
+/// Whether more of the picture is lost than found, and at least kMinVotes: a ball that bounces
+/// before a plain wall may be all that is lost.
 bool is_new(const BlockField& field) {
   size_t lost = 0, found = 0;
   for (size_t i = 0; i < field.blocks().size(); ++i) {
@@ -133,7 +133,7 @@ void collect_areas(const BlockField& field, const std::vector<MotionBlock>& area
   for (const MotionBlock& area : areas) {
     const Eigen::Vector2d from_middle_px = area.centre_px.cast<double>();
     const double inside_px = (votes.size_px / 2 - from_middle_px.cwiseAbs()).minCoeff() - kHalf_px;
-    // An area may reach over the film's border by a pixel of the coarse picture.
+    // A coarse block may reach over the film's border by a pixel of the coarse picture.
     if (inside_px < -kCoarser) continue;
     const bool at_border = inside_px < kBorderBlocks * kBlock_px;
     votes.all += at_border ? kBorderVotes : 1;

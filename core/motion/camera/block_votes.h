@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The votes of blocks on the motion of the camera.
 #pragma once
 
 #include <cstdint>
@@ -14,10 +13,10 @@ namespace spidar {
 /// What the previous frame shows about the votes of this one. Vectors have one value for each
 /// block, or none after a cut.
 struct PreviousFrame {
-  /// How likely the block was not part of the background, 0 … 1.
+  /// The probability that the block was foreground, 0 … 1.
   const std::vector<float>& persistence;
-  const std::vector<uint8_t>& burned_in;  ///< 1: it showed graphics
-  const std::vector<uint32_t>& objects;   ///< number of the object that it was part of; 0: of none
+  const std::vector<uint8_t>& burned_in;  ///< 1: the block showed graphics
+  const std::vector<uint32_t>& objects;   ///< the number of the block's object; 0: none
   /// Blocks of bars and frames around the film, on each side.
   int margin_columns = 0;
   int margin_rows = 0;
@@ -29,10 +28,9 @@ struct PreviousFrame {
 
 /// Sets `votes` to those of the textured blocks of `field`.
 void collect_votes(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
-/// As collect_votes(), but edges vote too, if together they have more than one direction: for
-/// pictures in which little else votes.
+/// Works like collect_votes(), but edges vote too, if together they have more than one direction:
+/// for pictures in which little else votes.
 void collect_edges(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
-/// Sets `votes` to those of `areas`, see Areas.
 void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas,
                    const PreviousFrame& past, BackgroundVotes& votes);
 

@@ -10,22 +10,21 @@
 namespace spidar {
 namespace {
 
-/// Blocks from the border inwards: with fewer, a strip that is left beside the blocks, or a dark
-/// edge of the picture, would decide.
+/// Blocks from the border inwards: with fewer, a strip beside the blocks, or a dark edge of the
+/// picture, would decide.
 constexpr int kRingBlocks = 2;
-/// The largest number of borders that cut an object, one in a corner. What more of them cut is a
-/// part of the scene that was taken for an object.
+/// The largest number of borders that cut an object, one in a corner. If more borders cut an
+/// object, it is a part of the scene.
 constexpr int kMaxOfObject = 2;
 
-/// Standard deviation of | a | − | b | over that of a and b, which are normal and independent:
-/// √(2 (1 − 2 / π)).
+/// Standard deviation of | a | − | b | over that of a and b, which are normal and independent: √(2
+/// (1 − 2 / π)).
 constexpr double kOfTwoSizes = 0.853;
 /// Differences of a block, Σ over its pixels, are unequal if they are further apart than so many
-/// standard deviations of what noise gives, and than what an encoder changes in a wall at rest.
+/// standard deviations of noise, and than the changes of an encoder in a wall at rest.
 constexpr double kUnequalSigmas = 2;
 constexpr double kCoded = static_cast<double>(kRounding_grey) * kBlockArea_px;
 
-/// How many borders of the film cut an object.
 int borders_of(uint32_t object, const BlockField& field, const PreviousFrame& past) {
   const BlockGrid& grid = field.grid();
   const int first_column = past.margin_columns, last_column = grid.columns - 1 - first_column;
@@ -45,7 +44,7 @@ int borders_of(uint32_t object, const BlockField& field, const PreviousFrame& pa
   return left + right + above + below;
 }
 
-/// By how much the differences of a block must differ to be unequal, Σ over its pixels.
+/// How much the differences of a block must differ to be unequal, Σ over its pixels.
 double clearly_unequal(const BlockField& field) {
   const double of_noise =
       kBlock_px * kOfTwoSizes * std::sqrt(static_cast<double>(field.noise_grey2()));
@@ -71,11 +70,11 @@ Eigen::Vector2f motion_of(const BlockField& field, size_t block, const MotionMod
   return model.displacement_px(at_px - model.displacement_px(at_px)).cast<float>();
 }
 
-/// A line across a block is the least that shows whether it stays.
+/// A line across a block is the least that shows whether the block stays.
 constexpr int kMinStaying = kBlock_px;
 
-/// A block whose own motion is so near to a model's fits it, px of the field's picture: as far as
-/// motion is off before it is refined.
+/// The largest distance, px of the field's picture, between a block's own motion and that of a
+/// fitting model: the error of motion before it is refined.
 constexpr float kFits_px = kMaxOff_px / 2;
 
 bool shows_graphics(const BlockField& field, size_t block, const Eigen::Vector2f& moved_px) {
@@ -132,7 +131,7 @@ double share_border(const BlockField& field, const PreviousFrame& past,
   int all = 0;
   int telling = 0;
   each_at_border(field, past, [&](size_t i) {
-    // Neighbours are mostly alike: of a single model, every other block will do.
+    // Neighbours are mostly alike: for a single model, every other block suffices.
     if (is_single && (grid.column(i) + grid.row(i)) % 2 != 0) return;
     ++all;
     const Eigen::Vector2f first_px = motion_of(field, i, models.front());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tests what the border of the picture shows of the camera's motion: objects are rarely there.
 #pragma once
 
 #include <vector>
@@ -11,18 +10,19 @@
 
 namespace spidar {
 
-/// By how much more of the border's blocks a motion must explain than rest does, as a fraction of
-/// them, to be believed where votes show rest or nothing. Measured in rendered films, in 4594
-/// pictures in which areas moved and blocks did not: twelve pictures became right for each that
-/// became wrong; with half this fraction eight, with 0 three.
+/// Where votes show rest or nothing, a motion counts only if it explains more of the border's
+/// blocks than rest does, by this fraction of them. Measured in rendered films, in 4594 pictures in
+/// which coarse blocks moved and blocks did not: twelve pictures became right for each that became
+/// wrong; with half this fraction eight, with 0 three.
 constexpr double kMoreThanRest = 0.2;
 
-/// Whether the blocks along the border, with texture or without, fit the previous picture better if
-/// they have moved like the model than if they rest. Known objects are left out; where they have
-/// most of the border, the answer is false.
+/// Tests the camera's motion at the border of the picture, where objects are rare: whether the
+/// blocks along the border, with texture or without, fit the previous picture better if they have
+/// moved like the model than if they rest. Known objects are left out; where they have most of the
+/// border, the answer is false.
 bool border_has_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
 
-/// Least fraction of exactly equal pixels that graphics have. With noise of one grey level after
+/// The least fraction of exactly equal pixels in graphics. With noise of one grey level after
 /// reduction, 0.35 of the pixels of a static object are equal; of graphics nearly all are, or 0.6
 /// if an encoder adds noise. The standard deviation of the count is √n / 2.
 constexpr double kExactOfGraphics = 0.5;
@@ -30,11 +30,11 @@ constexpr double kExactOfGraphics = 0.5;
 /// that the camera follows: more than `least_exact` of them are exactly equal.
 bool are_graphics(const StayingPixels& staying, double least_exact);
 
-/// Largest number of models that are compared.
+/// The largest number of compared models.
 constexpr size_t kMaxModels = 4;
 
 /// Sets `shares` to the fraction of the border's blocks that each model explains. A block counts if
-/// it fits some motion clearly better than another, and is divided among the models that fit it.
+/// some motion fits it clearly better than another, and is divided among the models that fit it.
 /// Graphics do not count if the first model moves. Returns the fraction of the blocks that count.
 /// With a single model, these are the blocks that it does not explain, because a block always fits
 /// the motion that was found for it.

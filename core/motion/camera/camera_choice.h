@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Chooses what shows how the camera moves: blocks, areas or edges.
 #pragma once
 
 #include <array>
@@ -18,11 +17,9 @@ namespace spidar {
 /// of cells are compared, in which noise counts little.
 class PlainParts {
  public:
-  /// Whether the blocks show that they move like the model.
   bool have_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
 
-  /// Keeps the model of this picture for the next ones. A picture that is shown again does not
-  /// count.
+  /// Keeps the model of this picture for the next ones. A repeated picture does not count.
   void remember(const BlockField& field, const MotionModel& model);
   void reset() { models_.fill(MotionModel()); }
 
@@ -30,22 +27,23 @@ class PlainParts {
   void go_back(const BlockField& field, const MotionModel& model);
 
   std::array<MotionModel, kMaxBack - 1> models_;  ///< of earlier pictures, the latest first
-  std::vector<Eigen::Vector2d> moved_px_;  ///< of each block, since the picture that is compared
-  std::vector<Eigen::Vector2d> steps_px_;  ///< the same, since each picture before it
-  int back_ = 0;                           ///< how many pictures ago that was; 0: none
+  std::vector<Eigen::Vector2d> moved_px_;         ///< of each block, since the compared picture
+  std::vector<Eigen::Vector2d> steps_px_;         ///< the same, since each picture before it
+  int back_ = 0;                                  ///< how many pictures ago that was; 0: none
 };
 
-/// Blocks vote first. Where they show rest or nothing, and are not many, areas vote. Areas also
-/// move with a large object in front of them, so the plain parts or the border must show the same
-/// motion. Last of all, edges vote along with the blocks if those are few. A motion that explains
-/// clearly more of the border than the one found in this order is preferred to it.
+/// Chooses what shows how the camera moves. Blocks vote first. Where they show rest or nothing, and
+/// are not many, coarse blocks vote. Coarse blocks also move with a large object in front of them,
+/// so the plain parts or the border must show the same motion. Last of all, edges vote along with
+/// the blocks if those are few. This gives the first choice; a motion that explains clearly more of
+/// the border replaces it.
 class CameraChoice {
  public:
   CameraChoice();
 
   const Background& find(const BlockField& field, const PreviousFrame& past);
 
-  /// How many votes the last background has been found from.
+  /// The number of votes for the last background.
   size_t votes() const { return votes_.cast.size(); }
   /// Learns the noise as BackgroundEstimator does, from these votes.
   template <typename Moves>
@@ -53,7 +51,7 @@ class CameraChoice {
     estimator_.learn_noise(votes_, moves);
   }
 
-  /// Forgets everything, after a cut or a seek.
+  /// Call this after a cut or a seek.
   void reset();
 
  private:
@@ -65,19 +63,19 @@ class CameraChoice {
   template <typename Counts>
   void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
 
-  BackgroundVotes votes_;  ///< that the last background has been found from
+  BackgroundVotes votes_;  ///< for the last background
   BackgroundVotes area_votes_;
   BackgroundVotes rival_votes_;
   Areas areas_;
   PlainParts plain_;
-  /// The model that explains the picture best, whether it was believed or not: over several
-  /// pictures the plain parts may show what they do not show in one.
+  /// The model that explains the picture best, chosen or not: over several pictures the plain parts
+  /// may show what they do not show in one.
   MotionModel likely_;
   BackgroundEstimator estimator_;
   WeightedDisplacements evidence_;
-  std::vector<MotionModel> models_;  ///< what was found in order, then its rivals
+  std::vector<MotionModel> models_;  ///< the first choice, then its rivals
   std::vector<double> shares_;       ///< of the border that each of them explains
-  bool is_rival_ = false;            ///< the last background is a rival
+  bool is_rival_ = false;            ///< whether the last background is a rival
 };
 
 }  // namespace spidar

@@ -17,8 +17,8 @@ bool are_on_a_line(const Eigen::Matrix2d& scatter) {
   return !(scatter.determinant() > 1e-4 * scatter.trace() * scatter.trace());
 }
 
-/// Least squares of a model up to the affine one. `weight_of(i)` is called once for each point.
-/// The sums are about `about_px`, which should be in their middle.
+/// Least squares of a model up to the affine one. `weight_of(i)` is called once for each point. The
+/// sums are about `about_px`, which should be in their middle.
 template <typename WeightOf>
 std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displacement>& points,
                                       const Eigen::Vector2d& about_px, WeightOf&& weight_of) {
@@ -45,8 +45,7 @@ std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displace
   // Relative to the means the shift cancels; the linear part remains.
   scatter -= weight * at_px * at_px.transpose();
   cross -= weight * moved_px * at_px.transpose();
-  // All are in one position, but for the rounding of their mean (1e-10 px at 1e4 px from the
-  // centre).
+  // All are in one position, but for the rounding of their mean: 1e-10 px at 1e4 px.
   constexpr double kOnePlace_px = 1e-6;
   if (!(scatter.trace() > weight * kOnePlace_px * kOnePlace_px)) return std::nullopt;
   if (kind == ModelKind::kSimilarity) {
@@ -63,11 +62,11 @@ std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displace
 
 /// H s = g for the Gauss–Newton step s of the eight parameters of a homography, lengths in
 /// kUnit_px. In x only the first three of them act, in y the next three, with the same derivatives
-/// a = (x, y, 1) / divisor, and the last two act in both, with −to · (x, y) / divisor: what is
-/// zero, or there already, is not added up.
+/// a = (x, y, 1) / divisor, and the last two act in both, with −to · (x, y) / divisor. Terms that
+/// are zero or already there are not added up.
 class HomographySums {
  public:
-  static constexpr double kUnit_px = 256;  ///< so that the normal matrix is well scaled
+  static constexpr double kUnit_px = 256;  ///< makes the normal matrix well scaled
 
   void add(double weight, const Eigen::Array2d& at_px, double divisor, const Eigen::Array2d& to_px,
            const Eigen::Array2d& error_px) {
@@ -115,8 +114,8 @@ class HomographySums {
   Eigen::Array4d g_x_ = Eigen::Array4d::Zero(), g_y_ = g_x_, g_to_ = g_x_;
 };
 
-/// One Gauss–Newton step. `weight_of(i, e²)` is called once for each point, with the square of what
-/// the model leaves of its displacement. Returns false where the points do not determine it.
+/// One Gauss–Newton step. `weight_of(i, e²)` is called once for each point, with the square of its
+/// residual displacement. Returns false where the points do not determine the step.
 template <typename WeightOf>
 bool step_homography(const std::vector<Displacement>& points, MotionModel& model,
                      WeightOf&& weight_of) {
@@ -125,7 +124,7 @@ bool step_homography(const std::vector<Displacement>& points, MotionModel& model
                        column_y = model.linear.col(1);
   HomographySums sums;
   for (size_t i = 0; i < points.size(); ++i) {
-    // MotionModel::displacement_px(), of which the divisor is used again.
+    // MotionModel::displacement_px(), whose divisor is used again.
     const Eigen::Array2d at = points[i].at_px;
     const double divisor = 1 + (h_x * at.x() + h_y * at.y());
     const Eigen::Array2d moved = at + (shift + (column_x * at.x() + column_y * at.y()));
@@ -147,10 +146,10 @@ bool step_homography(const std::vector<Displacement>& points, MotionModel& model
   return true;
 }
 
-/// The start may deviate by this, px of the field's picture, and each step tolerates half as much
-/// as the one before, until the last one tolerates σ: a start is only as accurate as two points,
-/// and a similarity where the scene needs more. With σ alone, the blocks of one object that move
-/// alike often agree with a similarity that is more exact than any of the background's.
+/// The tolerance of the first step, px of the field's picture. Each step tolerates half as much as
+/// the one before, until the last one tolerates σ: a start is only as accurate as two points, and a
+/// similarity where the scene needs more. With σ alone, the blocks of one object that move alike
+/// often agree with a similarity that is more exact than any of the background's.
 constexpr double kFar_px = 4.8;
 
 /// The similarity that moves both points as they moved.

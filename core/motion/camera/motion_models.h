@@ -16,12 +16,10 @@ namespace spidar {
 enum class ModelKind { kStill, kTranslation, kSimilarity, kAffine, kHomography };
 constexpr int kModelKinds = 5;
 
-/// Number of free parameters of a model.
 constexpr int parameters(ModelKind kind) {
   constexpr int kFree[kModelKinds] = {0, 2, 4, 6, 8};
   return kFree[static_cast<int>(kind)];
 }
-/// "still", "translation", "similarity", "affine", "homography".
 const char* to_string(ModelKind kind);
 
 /// A displacement from one frame to the next, relative to the centre of the frame.
@@ -31,7 +29,7 @@ struct Displacement {
   Eigen::Vector2d moved_px;
 };
 
-/// Largest number of displacements that are used in a frame, which bounds its cost.
+/// The most displacements of a frame, which bounds its cost.
 constexpr size_t kMaxDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not
@@ -49,7 +47,7 @@ struct MotionModel {
   }
   /// Relative change of lengths at the centre; 0.01 is one per cent larger.
   double growth() const { return linear.trace() / 2; }
-  /// Rotation at the centre from x to y: clockwise as seen on the screen.
+  /// Rotation at the centre from x to y: clockwise on the screen.
   double roll_rad() const;
 };
 
@@ -61,31 +59,30 @@ struct Background {
       1;  ///< fraction of the picture's votes that agree with the model; 0: hardly any
   /// False where there is texture all over the picture and hardly any of it agrees with the best
   /// model, where the votes that agree may be an object's, and where there are few votes because
-  /// most of the picture is new: it is then unknown how the camera moves, and what moves by itself.
-  /// The model is 'still' then, and `coverage` 0.
+  /// most of the picture is new. The motion of the camera and of objects is then unknown, the model
+  /// is 'still', and `coverage` 0.
   bool is_known = true;
-  /// Few of the blocks with texture showed the motion: it was found from areas of several blocks,
-  /// or from the border beside a large object.
+  /// Few of the blocks with texture showed the motion: it was found from coarse blocks, or from the
+  /// border beside a large object.
   bool is_of_few = false;
 };
 
-/// The displacements to be explained.
 struct WeightedDisplacements {
   std::vector<Displacement> points;
   std::vector<double> weights;  ///< ≥ 0, one for each point
   double sigma_px = 1;          ///< noise of a displacement, each coordinate, > 0
 };
 
-/// Number of pairs of points that are tried. When half of the votes belong to the background, one
-/// pair in four has no outlier; the probability that all pairs tried have one is 1e-5.
+/// The number of tried pairs of points. When half of the votes belong to the background, one pair
+/// in four has no outlier; the probability that all tried pairs have one is 1e-5.
 constexpr size_t kMaxTries = 40;
 
-/// Noise of a displacement where it has not been measured, each coordinate, px of the field's
+/// The noise of a displacement where it has not been measured, each coordinate, px of the field's
 /// picture: that of blocks with much texture, and of points in a picture with noise.
 constexpr double kUsualNoise_px = 0.1;
 /// Standard deviation of the error that all blocks of an object share, px of the field's picture:
 /// that of the interpolation between pixels at one fraction of a pixel. In pans without noise it is
-/// between 0.01 and 0.03. No noise is assumed to be less.
+/// between 0.01 and 0.03. No smaller noise is assumed.
 constexpr double kSharedError_px = 0.025;
 
 /// ρ of Torr's GRIC: min(e²/σ², λ₃ (r − d)), with λ₃ = 2, r = 4 coordinates of a pair, and d = 2,
@@ -103,7 +100,7 @@ double robust_cost(const MotionModel& model, const WeightedDisplacements& eviden
 
 /// A model with a small robust_cost(), found in a bounded number of steps: the best of the
 /// similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000) and the `known`
-/// models, where deviations of several px count as less than outliers: fit_robustly() narrows that.
+/// models. Deviations of several px count as less than outliers here, which fit_robustly() narrows.
 /// The same evidence gives the same model, bit for bit.
 MotionModel find_start(const WeightedDisplacements& evidence,
                        const std::vector<MotionModel>& known);

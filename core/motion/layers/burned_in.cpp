@@ -12,13 +12,13 @@
 namespace spidar {
 namespace {
 
-/// Largest fraction of the picture on one side, to the nearest line: that of a film of 4:3 in a
+/// The largest fraction of the picture on one side, to the nearest line: that of a film of 4:3 in a
 /// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
-/// scene without noise would pass for a film in a frame.
+/// scene without noise would count as a film in a frame.
 constexpr double kMaxOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
-/// Fraction of the positions along the edge of a film that change while a bar beside them does not:
-/// the rest may be plain or dark.
+/// The fraction of the positions along the edge of a film that change while a bar beside them does
+/// not: the rest may be plain or dark.
 constexpr double kChangedFraction = 0.8;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
@@ -46,7 +46,7 @@ struct Side {
     return true;
   }
 
-  /// How many lines stand, from the side on; 0 when it is more than a bar.
+  /// How many lines stand still, from the side on; 0 when they are more than a bar.
   int standing() const {
     const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
@@ -54,8 +54,8 @@ struct Side {
     return n > most ? 0 : n;
   }
 
-  /// Adds the positions where the first line that does not stand, or the next one, has changed: the
-  /// edge is anywhere in the first one. Returns whether they are nearly all.
+  /// Adds the positions where the first line that does not stand still, or the next one, has
+  /// changed: the edge is anywhere in the first one. Returns whether they are nearly all.
   bool is_edge(int line, std::vector<uint8_t>& changed) const {
     int all = 0;
     for (int position = across; position < positions() - across; ++position) {
@@ -70,13 +70,12 @@ struct Side {
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
 /// needs a fraction halfway to all of them.
 constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
-/// The search can find a block with static graphics to move by up to kMaxOff_px, because part of
-/// its pixels are of the film. Blocks that moved by less than half of it, px of the field's
+/// The search can find a motion of up to kMaxOff_px for a block with static graphics, because some
+/// of its pixels are of the film. Blocks that moved by less than half of that, px of the field's
 /// picture, count as not moved.
 constexpr float kInPlace_px = kMaxOff_px / 2;
 /// A block that has moved, but in which so many pixels stay in place, shows graphics and the film
-/// behind them together, and its motion is neither: a tenth of the block, more than a line across
-/// it.
+/// behind them together, and its motion is neither: a tenth of the block, more than a line across.
 constexpr int kMixedPixels = 24;
 /// A dark or still part of a picture has less noise than the rest. The noise around a block is that
 /// of the blocks up to kAround_blocks away that move with the background to kWithBackground_px, px
@@ -84,19 +83,18 @@ constexpr int kMixedPixels = 24;
 constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
 constexpr size_t kMinAround = 8;
-/// A block that has moved by less than kStill_px, px of the field's picture, is unexplained from
-/// 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
+/// A block that has moved by less than kStill_px, px of the field's picture, is unexplained
+/// from 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
 /// follows an object so exactly.
 constexpr float kStill_px = 0.2F;
 constexpr float kStillCost = 1.4F;
-/// Score of a block: a pair in which it stays constant adds kGain, every other pair subtracts 1.
-/// From kLasting on, which needs two such pairs, the block counts as burned in without a new sign,
-/// for at most five further pairs.
+/// The score of a block: a pair in which the block stays constant adds kGain, every other pair
+/// subtracts 1. From kLasting on, which needs two such pairs, the block counts as burned in without
+/// a new sign, for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
 constexpr int kMaxScore = 3 * kGain;
-/// Offset at which constant pixels next to a block are searched: the edge of a bar may be just
-/// outside.
+/// Constant pixels are also searched at this offset: the edge of a bar may be just outside a block.
 constexpr int kBeside_px = kBlock_px / 4;
 
 }  // namespace
@@ -155,8 +153,8 @@ void BurnedIn::begin(const BlockField& field, bool camera_moves) {
   nearby_.reserve((2 * kAround_blocks + 1) * (2 * kAround_blocks + 1));
 }
 
-/// Median of what the motion leaves unexplained in the blocks around one, grey²; nothing if too few
-/// of them move with the background.
+/// The median of the residuals of the blocks around one, grey²; nothing if too few of them move
+/// with the background.
 std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const Block& block) {
   nearby_.clear();
   field.grid().each_around(block.index, kAround_blocks, [&](size_t i) {

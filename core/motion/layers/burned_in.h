@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Detects graphics that are burned into the film, and the bars and frames around it.
 #pragma once
 
 #include <array>
@@ -15,42 +14,38 @@
 namespace spidar {
 
 /// How many rows and columns of blocks at each side of the picture do not show the film: letterbox
-/// bars, a still frame around it, or both, with the blocks through which their edge goes. The
+/// bars, a still frame around the film, or both, with the blocks that their edge crosses. The
 /// border of the film counts as the picture's border.
 ///
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
 /// whole line changes: the edge of a film is straight, that of an object in front of a wall at rest
-/// is not. A bar is as wide as the one on the opposite side, give or take a block. It is known
+/// is not. A bar is as wide as the one on the opposite side, give or take a block. A bar is known
 /// after kKnownAfterPairs such pairs of pictures, and until something in it changes.
 class Margins {
  public:
-  /// Compares the two pictures of the field.
   void update(const BlockField& field);
 
   /// Number of blocks at the left and at the right, and at the top and at the bottom.
   int columns() const { return columns_.is_known() ? columns_.blocks : 0; }
   int rows() const { return rows_.is_known() ? rows_.blocks : 0; }
 
-  /// Whether update() has found or lost bars: the film has another border than in the previous
-  /// picture.
+  /// Whether update() has found or lost bars: the film has another border than before.
   bool have_changed() const { return have_changed_; }
 
-  /// Whether a block is outside the film.
   bool contains(const BlockGrid& grid, size_t block) const {
     return grid.columns_beside(block) < columns() || grid.rows_beside(block) < rows();
   }
 
   void reset();
 
-  /// Number of pairs after which bars are known: in one or two, an object may look like a bar.
+  /// The number of pairs after which bars are known: in one or two, an object may look like a bar.
   static constexpr int kKnownAfterPairs = 3;
 
  private:
-  /// The bars on two opposite sides.
   struct Bars {
     int blocks = 0;
-    int pairs = 0;  ///< of pictures that showed them
-    /// Places along both edges that have changed since the bars have been there.
+    int pairs = 0;  ///< of pictures that showed the bars
+    /// Places along both edges that have changed since the bars were found.
     std::array<std::vector<uint8_t>, 2> changed;
 
     bool is_known() const { return pairs >= kKnownAfterPairs; }
@@ -64,39 +59,38 @@ class Margins {
   bool have_changed_ = false;
 };
 
-/// Distinguishes blocks with burned-in graphics (a logo, a subtitle, a clock, the edge of a
-/// letterbox bar, a still inset picture) from blocks with a moving object. While the camera moves,
-/// both move relative to the background.
+/// Detects graphics that are burned into the film: distinguishes blocks with burned-in graphics (a
+/// logo, a subtitle, a clock, the edge of a letterbox bar, a still inset picture) from blocks with
+/// a moving object. While the camera moves, both move relative to the background.
 ///
 /// Graphics are added after the film was shot, so their pixels stay constant and lack the film's
-/// noise. The pixels of an object that the camera follows change, however exactly it is followed.
-/// In semi-transparent graphics the film shows through: the edges stay in place, but neither rest
-/// nor any motion explains the pixels as well as in the blocks around them. An object that begins
-/// to deform looks the same, so this sign does not count where an object is known. Graphics do not
-/// move as a whole, either: in a block that seems to move a little against the background, some
-/// pixels stay where they are.
+/// noise. The pixels of an object that the camera follows change, however exactly the camera
+/// follows. In semi-transparent graphics the film shows through: the edges stay in place, but
+/// neither rest nor any motion explains the pixels as well as in the blocks around them. An object
+/// that begins to deform looks the same, so this sign does not count where an object is known.
+/// Graphics do not move as a whole, either: in a block that seems to move a little against the
+/// background, some pixels stay where they are.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.
 class BurnedIn {
  public:
-  /// A block that differs from the background.
   struct Block {
     size_t index = 0;
     Eigen::Vector2f background_px;  ///< motion of the background at this position
-    bool is_slow = false;           ///< it hardly differs from the background
-    bool is_expected = false;       ///< it belongs to a known object
+    bool is_slow = false;           ///< hardly differs from the background
+    bool is_expected = false;       ///< belongs to a known object
   };
 
   /// Begins a pair of pictures. If the camera does not move (`camera_moves` is false), constant
   /// pixels belong to the scene.
   void begin(const BlockField& field, bool camera_moves);
 
-  /// Examines a block of the pair. Call for every block that seems to move independently.
+  /// Examines a block of the pair. Call this for every block that seems to move independently.
   void look(const BlockField& field, const Block& block);
 
   /// Ends the pair. A block that stayed constant twice keeps its status for some further pairs, in
-  /// which the digits of a clock may change. It also makes unexplained blocks next to it count as
+  /// which the digits of a clock may change, and makes unexplained blocks next to it count as
   /// burned in.
   void end(const BlockGrid& grid);
 
@@ -119,7 +113,7 @@ class BurnedIn {
   enum class Sign : uint8_t {
     kNone,
     kUnexplained,  ///< neither noise nor the block's motion explains its pixels
-    kInPlace,      ///< as kUnexplained, and the block has not moved
+    kInPlace,      ///< kUnexplained, and the block has not moved
     kStays,        ///< its pixels are constant
   };
 

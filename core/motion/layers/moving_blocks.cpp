@@ -29,32 +29,32 @@ Eigen::Vector2f direction_of(const std::vector<Eigen::Vector2f>& moved_px, float
   return {std::cos(angle_rad), std::sin(angle_rad)};
 }
 
-/// Pixels of a block whose errors are independent, of 256: coding and interpolation change
-/// neighbours alike.
+/// The number of pixels of a block whose errors are independent, of 256: coding and interpolation
+/// change neighbours alike.
 constexpr float kIndependentPixels = 16;
-/// Variance of a block's mean difference that remains where its own motion explains every pixel,
-/// grey²: that of rounding and of light that changes a little from position to position.
+/// The variance of a block's mean difference that remains where its own motion explains every
+/// pixel, grey²: that of rounding and of light that changes a little from position to position.
 constexpr float kMinVariance_grey2 = 0.5f;
 
-/// Squared Mahalanobis distance from which on a block moves by itself. The distance of two Gaussian
-/// coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
+/// The squared Mahalanobis distance from which on a block moves by itself. The distance of two
+/// Gaussian coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
 constexpr float kMinDistance2 = 13;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
 /// is right to kMaxOff_px. Nearer, the differences of pixels do not separate them.
 constexpr float kDifferentPixels_px = 2 * kMaxOff_px;
-/// Of a slow block, how much larger the covariance of the parallax counts. Depths have no normal
+/// How much larger the covariance of the parallax counts for a slow block. Depths have no normal
 /// distribution: much of a scene is further from its model than the middle of it suggests.
 constexpr float kDepths = 4;
-/// A known object may become slower by this factor before it counts as resting. Otherwise it would
-/// stop as soon as it falls below the threshold, and a trunk would leave its motion to the faster
-/// limbs.
+/// A known object may become slower by this factor before it counts as resting. Otherwise the
+/// object would stop as soon as it falls below the threshold, and a trunk would leave its motion to
+/// the faster limbs.
 constexpr float kSlower = 0.6f;
-/// By how much the background's motion must fit worse in the picture itself: kRounding_grey, a
+/// How much worse the background's motion must fit in the picture itself: kRounding_grey, a
 /// fraction of the picture's noise, and a fraction of the difference that the block's own motion
 /// leaves.
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseFraction = 0.15f;
-/// The same of a block without texture where no object is known, on the mean: noise and coding may
+/// The same for a block without texture where no object is known, on the mean: noise and coding may
 /// be in both of the differences.
 constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 
@@ -68,8 +68,8 @@ constexpr float kLastingAlone = 0.8f;
 
 /// Squared Mahalanobis distance eᵀ C⁻¹ e of a block's motion e from the background's. Its
 /// covariance is C = v S⁻¹ + N: the error of the block's own motion, whose structure tensor is S,
-/// and `noise_px2`, that of what follows the background. C S = v 1 + N S has an inverse for edges,
-/// too, whose S has none.
+/// and `noise_px2`, that of blocks that follow the background. C S = v 1 + N S has an inverse for
+/// edges, too, whose S has none.
 float distance2(const RelativeBlock& relative, const MotionBlock& block,
                 const Eigen::Matrix2f& noise_px2) {
   const float v = block.residual / kIndependentPixels + kMinVariance_grey2;
@@ -81,7 +81,7 @@ bool moves_slowly(const RelativeBlock& relative) {
   return std::hypot(relative.moved_px.x(), relative.moved_px.y()) <= kDifferentPixels_px;
 }
 
-/// By how much worse the background's motion explains a block's pixels than its own motion does, Σ
+/// How much worse the background's motion explains a block's pixels than its own motion does, Σ
 /// |now − before|; nothing if it leads too far out of the picture.
 std::optional<int> worse_with_background(const BlockField& field, size_t index,
                                          const RelativeBlock& relative) {
@@ -114,7 +114,7 @@ bool is_expected(const std::vector<uint8_t>& expected, size_t index) {
 /// A block of which less was in the previous picture cannot be compared with it.
 constexpr double kSeenBefore = 0.5;
 
-/// Fraction of a block that was in the previous picture if it moved with the background.
+/// The fraction of a block that was in the previous picture if the block moved with the background.
 float seen_before(const BlockField& field, size_t index, const RelativeBlock& block) {
   const Eigen::Vector2f size_px(static_cast<float>(field.picture().width()),
                                 static_cast<float>(field.picture().height()));
@@ -125,7 +125,7 @@ float seen_before(const BlockField& field, size_t index, const RelativeBlock& bl
 
 }  // namespace
 
-/// Medians, because of the blocks that move by themselves.
+/// Medians are used because some blocks move by themselves.
 void Parallax::measure(const std::vector<Eigen::Vector2f>& moved_px) {
   covariance_px2_.setZero();
   if (moved_px.empty()) return;
@@ -164,7 +164,7 @@ void MovingBlocks::reset() {
   burned_in_.reset();
 }
 
-/// Motion of each block relative to the background.
+/// Computes the motion of each block relative to the background.
 void MovingBlocks::compare(const BlockField& field, const Background& background,
                            const std::vector<uint8_t>& expected) {
   const std::vector<MotionBlock>& blocks = field.blocks();
@@ -172,20 +172,19 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
   for (size_t i = 0; i < blocks.size(); ++i) {
     const MotionBlock& block = blocks[i];
     const Eigen::Vector2d at_px = block.centre_px.cast<double>();
-    // The model maps from the previous picture to this one; it hardly differs between the two
-    // positions.
+    // The model maps from the previous picture; it hardly differs between the two positions.
     const Eigen::Vector2d there_px = at_px - background.model.displacement_px(at_px);
     RelativeBlock& relative = relative_[i];
     relative.background_px = background.model.displacement_px(there_px).cast<float>();
     relative.moved_px = block.moved_px - relative.background_px;
     relative.shows_motion =
         block.has_texture() || pixels_tell(field, i, relative, is_expected(expected, i));
-    // If less of it was in the picture before, the camera has just brought it into view.
+    // If less of the block was in the picture before, the camera has just brought it into view.
     relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kSeenBefore;
   }
 }
 
-/// From the blocks whose motion is known in every direction.
+/// Uses the blocks whose motion is known in every direction.
 void MovingBlocks::measure_parallax(const BlockField& field) {
   of_scene_px_.reserve(relative_.size());
   of_scene_px_.clear();
@@ -205,7 +204,7 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   const float least2 = expected ? kSlower * kSlower * kMinDistance2 : kMinDistance2;
   if (distance2(relative, block, noise_px2) < least2) return false;
   if (relative.was_outside) return false;
-  // Of a slow block the pixels say nothing, and a moving camera moves many blocks of a scene with
+  // The pixels of a slow block say nothing, and a moving camera moves many blocks of a scene with
   // depth a little.
   const bool is_slow = moves_slowly(relative);
   if (is_slow) {
@@ -248,8 +247,8 @@ void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// How much each block has stood out recently in the same way: what glitters stands out in another
-/// one each time. A small object may have moved on to the next block.
+/// Updates how much each block has stood out recently in the same way: glitter stands out in
+/// another way each time. A small object may have moved on to the next block.
 void MovingBlocks::remember_what_stood_out(const BlockField& field) {
   const size_t n = stands_out_.size();
   stood_out_before_.swap(stood_out_);

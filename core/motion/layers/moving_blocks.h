@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the parts of the picture that move by themselves.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,13 @@ namespace spidar {
 
 /// The deviations of blocks from the background's model, as a covariance.
 ///
-/// Where the camera travels, what is nearer or further than the model moves against it, and all of
-/// it along one direction: that of the epipolar lines. Across them there is only noise. What moves
-/// by itself has to stand out from both.
+/// Where the camera travels, nearer and further parts than the model move against it, all of them
+/// along one direction: that of the epipolar lines. Across them there is only noise. An object that
+/// moves by itself must stand out from both.
 class Parallax {
  public:
-  /// Takes the motion of the blocks of the scene relative to the background, px. Those that move by
-  /// themselves may be among them as long as they are fewer than half. The order of `moved_px`
-  /// stays.
+  /// Takes the motion of the blocks of the scene relative to the background, px. Fewer than half of
+  /// them may move by themselves. The order of `moved_px` stays.
   void measure(const std::vector<Eigen::Vector2f>& moved_px);
 
   /// In px²; zero before measure(), and after a measure() of no blocks.
@@ -41,32 +39,32 @@ class Parallax {
 /// A block compared with the background. Lengths are in pixels of the field's picture.
 struct RelativeBlock {
   Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();       ///< against the background
-  Eigen::Vector2f background_px = Eigen::Vector2f::Zero();  ///< motion of the background there
+  Eigen::Vector2f background_px = Eigen::Vector2f::Zero();  ///< of the background there
   bool shows_motion = false;  ///< its texture, or its pixels, determine its motion
   bool was_outside = false;   ///< most of it was outside of the film in the previous picture
-  bool is_occluded = false;   ///< something burned in hides the film here, see BurnedIn::occludes()
+  bool is_occluded = false;   ///< graphics hide the film here, see BurnedIn::occludes()
   bool lasts = false;         ///< has stood out for so long that it needs no neighbour to move
-  bool moves = false;         ///< moves by itself, taking its neighbours into account
+  bool moves = false;         ///< moves by itself, with its neighbours considered
 };
 
 /// How far the motion of a limb may differ from that of its body, as a fraction of the faster one.
 constexpr double kAlikeFraction = 0.5;
 
-/// By how much two motions of the same object may differ, px of the field's picture: kAlikeFraction
-/// of `fastest_px`, the length of the longer one, plus three standard deviations of a block's
-/// motion.
+/// How much two motions of the same object may differ, px of the field's picture: kAlikeFraction of
+/// `fastest_px`, the length of the longer one, plus three standard deviations of a block's motion.
 double alike_px(double fastest_px);
 
 /// Whether two motions may be of the same object.
 bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 
-/// Compares each block with the background. A block moves by itself when its motion is further from
-/// the background's than its own error and the background's noise explain. The background's motion
-/// must also explain the pixels of a fast block clearly worse, and far worse if the block has no
-/// texture, as that of something out of focus. Pixels do not separate motions that differ by less
-/// than one of them: a slow block must stand out from the parallax of the scene instead, unless the
-/// camera rests or an object is known there. While the motion of the background is unknown, no
-/// block is known to move by itself. A single block that stands out is an error unless it lasts.
+/// Finds the parts of the picture that move by themselves: compares each block with the background.
+/// A block moves by itself when its motion is further from the background's than its own error and
+/// the background's noise explain. The background's motion must also explain the pixels of a fast
+/// block clearly worse, and far worse if the block has no texture, as out of focus. Pixels do not
+/// separate motions that differ by less than one of them: a slow block must stand out from the
+/// parallax of the scene instead, unless the camera rests or an object is known there. While the
+/// motion of the background is unknown, no block is known to move by itself. A single block that
+/// stands out is an error unless it lasts.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -74,19 +72,18 @@ class MovingBlocks {
   const std::vector<RelativeBlock>& find(const BlockField& field, const Background& background,
                                          const std::vector<uint8_t>& expected);
 
-  /// How likely each block moves by itself, judged by the frames so far, 0 … 1. The values move
+  /// The probability that each block is foreground, from the frames so far, 0 … 1. The values move
   /// along with the picture.
   const std::vector<float>& persistence() const { return persistence_; }
 
-  /// Blocks with burned-in graphics or bars: they say nothing about the motion of the camera or of
-  /// objects.
+  /// Blocks with burned-in graphics or bars, which do not show the motion of camera or objects.
   const BurnedIn& burned_in() const { return burned_in_; }
 
   void reset();
 
  private:
-  /// In what fraction of the last frames a block stood out in the same way, and how it moved in the
-  /// last one.
+  /// The fraction of the last frames in which a block stood out alike, and its motion in the last
+  /// one.
   struct StoodOut {
     float fraction = 0;
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();

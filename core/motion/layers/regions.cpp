@@ -19,9 +19,8 @@ bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relat
   return is_unknown;
 }
 
-/// Blocks at the border divided by the square root of all blocks, of which a region with more is a
-/// layer that extends beyond the border: 1 for a square that touches one side, 2 for one in a
-/// corner.
+/// Blocks at the border divided by the square root of all blocks: a region with more is a layer
+/// that extends beyond the border. 1 for a square that touches one side, 2 for one in a corner.
 constexpr double kBorder = 1.5;
 /// A region that moves against the background by less than this many standard deviations of the
 /// blocks around it is one of the scene's layers: the further the layers are apart, the more each
@@ -30,8 +29,7 @@ constexpr double kBorder = 1.5;
 constexpr double kNoiseSigmas = 8;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// A region with more of its blocks beside graphics is the edge of these, mixed with the film
-/// behind it.
+/// A region with more blocks beside graphics is their edge, mixed with the film behind it.
 constexpr double kMixedFraction = 0.5;
 
 }  // namespace
@@ -143,7 +141,7 @@ double salience(const Region& region, const LayerEvidence& evidence, bool camera
   const double side_px = std::sqrt(region.blocks * kBlockArea_px);
   const double score = side_px * speed_px;
   if (!camera_moves) return score;
-  // It is unknown how far a region extends if all of it is at the border.
+  // The size of a region that is entirely at the border is unknown.
   if (!was_followed && region.border_blocks == region.blocks) return 0;
   const double trust = was_followed ? kTrusted : 1;
   if (region.graphics_blocks >= kMixedFraction * trust * region.blocks) return 0;

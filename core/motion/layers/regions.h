@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds connected blocks that move by themselves, and tells objects from layers of the scene by
-/// how they move over several frames.
+/// Finds connected blocks that move by themselves, and distinguishes objects from layers of the
+/// scene by their motion over several frames.
 #pragma once
 
 #include <cstdint>
@@ -18,10 +18,10 @@ namespace spidar {
 /// picture, positions relative to its centre.
 struct Region {
   int blocks = 0;
-  /// Number of them at a border: of the picture, of the part of it that was in the previous
+  /// Number of blocks at a border: of the picture, of the part of it that was in the previous
   /// picture, or of burned-in graphics that cover the film.
   int border_blocks = 0;
-  /// Number of them that burned-in graphics cover, or that have such a neighbour.
+  /// Number of blocks that burned-in graphics cover, or that have such a neighbour.
   int graphics_blocks = 0;
   bool lasts = false;  ///< one of its blocks does, see RelativeBlock
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
@@ -33,7 +33,6 @@ struct Region {
   double roundness = 0;  ///< of the structure tensor of the whole region
 };
 
-/// Label of blocks that belong to no region.
 constexpr int16_t kNoRegion = -1;
 
 /// Finds the regions of a field. Each block is connected with its eight neighbours.
@@ -45,7 +44,6 @@ class RegionFinder {
   const std::vector<Region>& find(const BlockField& field,
                                   const std::vector<RelativeBlock>& relative);
 
-  /// The region of each block, or kNoRegion.
   const std::vector<int16_t>& labels() const { return labels_; }
 
   static constexpr size_t kMaxRegions = 128;  ///< for which memory is reserved
@@ -66,7 +64,7 @@ class RegionFinder {
 /// The motion of one region over its last frames.
 ///
 /// A part of the scene that is nearer than the background also moves against it when the camera
-/// travels. But it moves with the background, and the more, the faster the camera is, so that its
+/// travels. But that part moves with the background, and more so, the faster the camera is: its
 /// motion on the screen is larger than its motion relative to the background. An object that a
 /// camera follows is nearer to rest on the screen than to the background.
 class LayerEvidence {
@@ -82,14 +80,13 @@ class LayerEvidence {
   /// follows, and stand out now and then. Infinite without noise.
   double contrast() const;
 
-  /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for
-  /// what the camera follows, 1 while the camera rests or shakes in place. The first is that of the
-  /// mean motion, from which the swings of a hand-held camera are gone; the second is a root mean
-  /// square, which an object has even while it turns round. Infinite without any motion.
+  /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for an
+  /// object that the camera follows, 1 while the camera rests or shakes in place. The first speed
+  /// is that of the mean motion, without the swings of a hand-held camera; the second is a root
+  /// mean square, which an object has even while it turns round. Infinite without any motion.
   double ratio() const;
 
-  /// Time constant of the means: longer than a swing of a hand-held camera, which shakes at 2 … 10
-  /// Hz.
+  /// Time constant of the means: longer than a swing of a hand-held camera, at 2 … 10 Hz.
   static constexpr double kMean_s = 0.6;
 
  private:
@@ -100,11 +97,11 @@ class LayerEvidence {
 };
 
 /// How much a region stands out: √area × speed, px² of the field's picture. While the camera moves,
-/// 0 for what looks like an effect of its translation in a scene with depth: a layer extends over
-/// the border of the picture, moves along with the background, or hardly differs from the blocks
-/// around it. 0 also for the edge of graphics, and for a single edge. `was_followed`: it was an
-/// object before and may look a little more like a layer, and stand out a little less from the
-/// noise.
+/// the result is 0 for what looks like an effect of its translation in a scene with depth: a layer
+/// extends over the border of the picture, moves along with the background, or hardly differs from
+/// the blocks around it. The result is 0 also for the edge of graphics, and for a single edge. A
+/// region that `was_followed` as an object before may look a little more like a layer, and stand
+/// out a little less from the noise.
 double salience(const Region& region, const LayerEvidence& evidence, bool camera_moves,
                 bool was_followed);
 

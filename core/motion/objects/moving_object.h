@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// An object that moves relative to the background.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +12,12 @@
 
 namespace spidar {
 
-/// Length below which 95 % of vectors lie whose coordinates have a Gaussian error of standard
+/// The length below which 95 % of vectors lie whose coordinates have a Gaussian error of standard
 /// deviation 1: √(−2 ln 0.05).
 constexpr double kErrorSigmas = 2.4477;
 
-/// One object in one frame. Image frame I relative to the centre of the frame: x right, y down.
+/// One object that moves relative to the background, in one frame. Image frame I relative to the
+/// centre of the frame: x right, y down.
 struct MovingObject {
   uint32_t id = 0;  ///< constant while the object exists, never reused
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
@@ -31,16 +31,16 @@ struct MovingObject {
   }
   Eigen::Vector2d drawn_low_px() const { return position_px - size_px / 2 + low_off_px; }
   Eigen::Vector2d drawn_high_px() const { return position_px + size_px / 2 + high_off_px; }
-  Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();  ///< velocity relative to the background
-  Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity as seen on the screen
+  Eigen::Vector2d relative_px_s = Eigen::Vector2d::Zero();   ///< relative to the background
+  Eigen::Vector2d on_screen_px_s = Eigen::Vector2d::Zero();  ///< velocity on the screen
   double growth_1_s = 0;                                     ///< as in ImageMotion, relative to …
   double roll_rad_s = 0;                                     ///< … the background
   ModelKind model = ModelKind::kTranslation;                 ///< translation or similarity
-  int points = 0;  ///< points or blocks from which it was measured; 0: out of sight
-  /// In 95 % of the frames in which the object is in sight, relative_px_s differs from the true
-  /// velocity by less than this; 0: not known.
+  int points = 0;  ///< measured points or blocks; 0: invisible
+  /// In 95 % of the frames in which the object is visible, relative_px_s differs from the true
+  /// velocity by less than this; 0: unknown.
   double error_px_s = 0;
-  /// It moved outwards at the border of the picture when it was last seen: it does not come back.
+  /// Whether it moved outwards at the border of the picture when last seen: it does not come back.
   bool has_left = false;
   double area_px2 = 0;    ///< of its blocks together
   double prominence = 0;  ///< how likely a viewer watches it, see salience()

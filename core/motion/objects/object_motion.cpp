@@ -9,8 +9,7 @@
 namespace spidar {
 namespace {
 
-/// Windows are used instead of the blocks if there are this many that move as the blocks do: two
-/// more than determine a similarity.
+/// Windows replace the blocks if so many move alike: two more than determine a similarity.
 constexpr size_t kMinWindows = 4;
 
 }  // namespace
@@ -35,8 +34,7 @@ void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   collected_.sigma_px = 2 * evidence.background.sigma_px;
 }
 
-/// Collects the windows on the object whose motion is close to `motion`. Returns false when they
-/// are too few.
+/// Collects the object's windows that move like `motion`. Returns false when they are too few.
 bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
                                   const ObjectEvidence& evidence) {
   collected_.points.clear();
@@ -104,9 +102,9 @@ ErrorBound::ErrorBound() {
   beside_px_.reserve(kMaxDisplacements);
 }
 
-/// Variance of each coordinate that comes from the object's blocks: of their median, and of the
-/// least squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction. Blocks do
-/// not overlap, so that each counts as a measurement.
+/// The variance of each coordinate due to the object's blocks: of their median, and of the least
+/// squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction. Blocks do not
+/// overlap, so each counts as a measurement.
 double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
                                     const ObjectEvidence& evidence) {
   squares_px2_.clear();
@@ -131,8 +129,8 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
          static_cast<double>(residual) / (n * kBlockArea_px * texture);
 }
 
-/// The variance of the background: the median of what its model leaves over beside the object, or
-/// the noise of a single block where nothing shows it.
+/// The variance of the background: the median of its model's residuals beside the object, or the
+/// noise of a single block where nothing shows it.
 double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
   beside_px_.clear();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures the motion of one object from its blocks and the windows on it.
 #pragma once
 
 #include <cmath>
@@ -19,7 +18,7 @@
 
 namespace spidar {
 
-/// Everything from which an object's motion is measured. Lengths are in px of the field's picture.
+/// The evidence of an object's motion. Lengths are in px of the field's picture.
 struct ObjectEvidence {
   const BlockField& field;
   const std::vector<RelativeBlock>& relative;  ///< for each block
@@ -32,11 +31,12 @@ struct ObjectEvidence {
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
   Eigen::Vector2d relative_px;  ///< of the middle of the object
-  int points = 0;               ///< number of windows or blocks that were used
+  int points = 0;               ///< number of windows or blocks
 };
 
-/// Blocks give the motion of an object; the windows on it, where there are enough, give it to a
-/// fraction of a pixel. Rotation and growth are used when the GRIC prefers them.
+/// Measures the motion of one object. Blocks give the motion; the windows on the object, where
+/// there are enough, give it to a fraction of a pixel. Rotation and growth are used when the GRIC
+/// prefers them.
 class ObjectMeter {
  public:
   ObjectMeter();
@@ -54,8 +54,8 @@ class ObjectMeter {
 
 /// Combines four errors, which are independent of each other:
 /// - how far the object's blocks are from its motion: the standard error of their median;
-/// - what the noise of the pixels makes of the object's texture, in the direction in which it has
-///   least: along an edge the error is large, though all blocks of the edge agree;
+/// - the effect of pixel noise on the object's texture, in the weakest direction: along an edge the
+///   error is large, though all blocks of the edge agree;
 /// - how far the background beside the object is from the background's model;
 /// - how far the interpolation between pixels moves all blocks of the object or of the background
 ///   alike.
@@ -63,8 +63,8 @@ class ErrorBound {
  public:
   ErrorBound();
 
-  /// The error of `found.relative_px`, the motion of the object `key`, is shorter than this in 95 %
-  /// of frames, px of the field's picture.
+  /// In 95 % of frames, the error of `found.relative_px`, the motion of the object `key`, is
+  /// shorter than this, px of the field's picture.
   double px(uint32_t key, const Region& region, const ObjectMotion& found,
             const ObjectEvidence& evidence);
 

@@ -14,25 +14,25 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector2f;
 
-/// How far an edge may be from where the motion has it in each step, px of the field's picture: the
+/// How far an edge may be from its predicted place in each step, px of the field's picture: the
 /// start is right to about a pixel, and a thing that bends a little to a quarter of one.
 constexpr float kEdge_px[] = {1, 0.5F, 0.25F, 0.25F};
 constexpr size_t kLastStep = std::size(kEdge_px) - 1;
-/// After a later step that is shorter than this, px, the last one follows: it begins as near as the
-/// one that is left out would have.
+/// A later step that is shorter than this, px, is followed by the last one, which then begins as
+/// near as after the omitted step.
 constexpr float kSettled_px = kEdge_px[kLastStep] / 2;
-/// A slope that is less than this many standard deviations of noise is none.
+/// A slope of less than this many standard deviations of noise does not count.
 constexpr float kSlopeSigmas = 3;
 /// Standard error of the direction of a slope, rad: of central differences on the rim of a disc
 /// that is one pixel soft.
 constexpr float kSlopeError = 0.14F;
-/// With less than this fraction of what seems to determine a parameter, errors of the slopes do:
-/// the rim of a plain disc does not show how it turns.
+/// With less than this fraction of the apparent information about a parameter, errors of the slopes
+/// determine it: the rim of a plain disc does not show how the disc rotates.
 constexpr double kMinReliable = 0.75;
-/// Fraction of the pixels of a rigid thing that are within two standard deviations.
+/// The fraction of the pixels of a rigid thing that are within two standard deviations.
 constexpr double kRigid = 0.95;
-/// How far what a similarity does not explain may be from where the rest of it has it, px of the
-/// field's picture: half of what the motion of a block may be off.
+/// How far pixels that a similarity does not explain may be from their predicted place, px of the
+/// field's picture: half of the error of a block's motion.
 constexpr double kBends_px = kMaxOff_px / 2.0;
 
 /// Grey level between pixels; nothing outside of the picture.
@@ -69,13 +69,12 @@ Value squared(Value value) {
   return value * value;
 }
 
-/// Whether the normal equations have one solution.
 bool is_determined(const Eigen::LDLT<Eigen::Matrix4f>& equations) {
   const Eigen::Vector4f pivots = equations.vectorD();
   return pivots.minCoeff() > 1e-6F * pivots.maxCoeff();
 }
 
-/// A vector turned and stretched by `by`, as complex numbers.
+/// Rotates and stretches a vector by `by`, as complex numbers.
 Vector2f turned(const Vector2f& by, const Vector2f& what) {
   return {by.x() * what.x() - by.y() * what.y(), by.x() * what.y() + by.y() * what.x()};
 }
@@ -98,9 +97,9 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
   return A;
 }
 
-/// Leaves at most `most` of the values, evenly: those for whose index the fractional part of its
+/// Keeps at most `most` of the values, evenly: those for whose index the fractional part of its
 /// multiple of the golden ratio is below the share that stays. Such parts fill an interval evenly
-/// and are in step with nothing, while every n-th pixel is in step with rows and what is n wide.
+/// and have no period, while every n-th pixel is in step with rows and with patterns n wide.
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
   if (values.size() <= most) return;
@@ -146,7 +145,7 @@ void TurnMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
 void TurnMeter::collect_slopes(const BlockField& field) {
   const PaddedImage& now = field.picture();
   noise_grey2_ = std::max(squared(kRounding_grey), field.noise_grey2());
-  // Of twice a slope: each coordinate has the noise of a difference.
+  // The limit for twice a slope: each coordinate has the noise of a difference.
   const auto least2 = static_cast<int>(std::ceil(squared(kSlopeSigmas) * noise_grey2_));
   slopes_.clear();
   for (size_t k = 0; k < blocks_.size(); ++k) {
@@ -165,7 +164,7 @@ inline Vector2f TurnMeter::before_px(const Pixel& pixel, const Eigen::Vector4f& 
   return pixel.at_px - motion.head<2>() - turned(motion.tail<2>(), pixel.rho);
 }
 
-/// `start` is about how the object moved.
+/// `start` is the approximate motion of the object.
 TurnMeter::Pixel TurnMeter::describe(const Place& place, const Eigen::Vector4f& start,
                                      const ObjectEvidence& evidence) const {
   const PaddedImage& now = evidence.field.picture();
@@ -184,7 +183,7 @@ TurnMeter::Pixel TurnMeter::describe(const Place& place, const Eigen::Vector4f& 
   pixel.grey = static_cast<float>(grey);
   pixel.slope = half_of(right - left, below - above);
   pixel.bend = half_of(right + left - 2 * grey, below + above - 2 * grey);
-  // The background's are both what was at its place, and what is now where the object was.
+  // The background counts both at the object's former place, and at its present place.
   const Vector2f behind_px = evidence.relative[blocks_[place.block]].background_px;
   const Vector2f from_px = before_px(pixel, start);
   const Sample there(before, pixel.at_px - behind_px), from(before, from_px);
@@ -223,8 +222,8 @@ TurnMeter::Sums TurnMeter::sum_up(const Eigen::Vector4f& motion, float edge_px,
   return all;
 }
 
-/// What the blocks disagree about, by a jackknife: each is left out once. Infinite where one block
-/// alone determines a parameter. `step` is what all of them together say.
+/// The disagreement of the blocks, by a jackknife: each is left out once. Infinite where one block
+/// alone determines a parameter. `step` is the result of all blocks.
 Eigen::Vector4d TurnMeter::between_px2(const Sums& all, const Eigen::Vector4f& step) const {
   Eigen::Vector4d sum_px2 = Eigen::Vector4d::Zero();
   for (const Sums& sums : sums_) {
@@ -278,7 +277,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
     const Sample there(evidence.field.before(), there_px);
     return there.is_inside ? squared(now_blurred(pixel, there) - there.grey) : pixel.behind2;
   };
-  // What bends says less of how the whole of it turns.
+  // Bending parts say less about the rotation of the whole.
   int own = 0, explained = 0;
   for (const Pixel& pixel : pixels_) {
     const float most2 =
@@ -291,7 +290,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   const std::complex<double> found_back = std::complex<double>(motion[2], motion[3]) / reach_px;
   const std::complex<double> forth = found_back / (1.0 - found_back) - behind;
   const Eigen::Vector4d of_blocks_px2 = between_px2(all, covariance * all.gradient);
-  // The variance is that of the noise, or what the blocks disagree about. Nothing is known where
+  // The variance is that of the noise, or the disagreement of the blocks. Nothing is known where
   // errors of the slopes determine the parameter.
   const auto estimate = [&](double value, int parameter) {
     const float of_noise_px2 = covariance(parameter, parameter);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures how much an object turns and grows from one frame to the next.
 #pragma once
 
 #include <cmath>
@@ -20,39 +19,38 @@ namespace spidar {
 /// A value with its errors.
 struct Estimate {
   double value = 0;
-  /// Standard error of what differs from frame to frame; infinite where nothing determines the
-  /// value.
+  /// Standard error of the part that differs from frame to frame; infinite without evidence.
   double sigma = std::numeric_limits<double>::infinity();
-  double shared = 0;  ///< standard error of what lasts: that of kSharedError_px
+  double shared = 0;  ///< standard error of the lasting part: that of kSharedError_px
 };
 
-/// How an object turns and grows against the background between two frames.
+/// How an object rotates and grows against the background between two frames.
 struct Turn {
-  Estimate roll_rad;  ///< from x to y: clockwise as seen on the screen
+  Estimate roll_rad;  ///< from x to y: clockwise on the screen
   Estimate growth;    ///< relative change of lengths
 };
 
-/// Fits a similarity to the pixels of an object by Gauss–Newton steps from its motion, with weights
-/// of Geman and McClure (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV
-/// 2004). Blocks that show one edge each say together how the object turns, where the motion of any
-/// of them is not known along its edge. Pixels that the background explains better are left out, in
-/// either picture: what an object uncovers pulls its rim.
+/// Measures how much an object rotates and grows from one frame to the next. Fits a similarity to
+/// the pixels of the object by Gauss–Newton steps from its motion, with weights of Geman and
+/// McClure (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004). Blocks
+/// that show one edge each determine the rotation together, although each of them leaves the motion
+/// along its edge open. Pixels that the background explains better are left out, in either picture:
+/// parts that an object uncovers pull its rim.
 class TurnMeter {
  public:
   TurnMeter();
 
-  /// `found` is the motion of the object `key`, and `as_before` how it would turn and grow now if
-  /// it went on as before.
+  /// `found` is the motion of the object `key`, and `as_before` its present rotation and growth if
+  /// it continued as before.
   Turn measure(uint32_t key, const Region& region, const ObjectMotion& found, const Turn& as_before,
                const ObjectEvidence& evidence);
 
-  /// Limits that bound the time for a frame: of more blocks or pixels, some are used, evenly.
-  /// With half as many pixels, the growth of a plain disc is lost (`spidar-bench turns`).
+  /// Limits that bound the time for a frame: of more blocks or pixels, some are used, evenly. With
+  /// half as many pixels, the growth of a plain disc is lost (`spidar-bench turns`).
   static constexpr size_t kMaxBlocks = 32;
   static constexpr size_t kMaxPixels = 512;
 
  private:
-  /// A pixel with a slope.
   struct Place {
     int x, y;
     size_t block;  ///< index in blocks_
@@ -70,7 +68,7 @@ class TurnMeter {
   struct Sums {
     Eigen::Matrix4f information = Eigen::Matrix4f::Zero();  ///< Σ w J Jᵀ
     Eigen::Vector4f gradient = Eigen::Vector4f::Zero();     ///< Σ w J r
-    float noise = 0;  ///< what errors of the slopes add to the information on grow or turn
+    float noise = 0;  ///< information on grow or turn that errors of the slopes add
 
     void operator+=(const Sums& other) {
       information += other.information;
@@ -99,19 +97,19 @@ class TurnMeter {
   float noise_grey2_ = 1;
 };
 
-/// A rate of turning or growing, to which each frame contributes as its error allows. It rises from
-/// 0 as it exceeds the bound of its error, and fades where nothing determines it any more.
+/// A rate of rotation or growth, to which each frame contributes as its error allows. The rate
+/// rises from 0 as it exceeds the bound of its error, and fades without evidence.
 class SteadyRate {
  public:
   /// Time constant with which the rate fades.
   static constexpr double kFades_s = 0.1;
 
-  /// Takes what a frame shows, `interval_s` > 0 after the previous one, as a change in that time.
+  /// Takes the change that a frame shows, `interval_s` > 0 after the previous one.
   void see(const Estimate& change, double interval_s) {
     if (!std::isfinite(change.sigma)) return miss(interval_s);
     const double variance = std::pow(change.sigma / interval_s, 2);
     const double news_1_s = change.value / interval_s - followed_1_s_;
-    // What an error explains is smoothed away, as in the velocity.
+    // Smoothing removes changes that an error explains, as in the velocity.
     const double news2 = news_1_s * news_1_s;
     const double newest = news2 / (news2 + kErrorSigmas * kErrorSigmas * variance);
     if (!std::isfinite(newest)) return;  // no news, and no error
@@ -121,19 +119,19 @@ class SteadyRate {
   }
   void miss(double interval_s) { followed_1_s_ *= std::exp(-interval_s / kFades_s); }
 
-  /// The rate as it is felt: 0 within the bound of its error.
+  /// The felt rate: 0 within the bound of its error.
   double rate_1_s() const {
     const double square = followed_1_s_ * followed_1_s_;
     const double bound2 = kErrorSigmas * kErrorSigmas * (variance_ + shared_1_s_ * shared_1_s_);
     return square > bound2 ? followed_1_s_ * (1 - bound2 / square) : 0;
   }
-  /// The change in `interval_s` if it goes on.
+  /// The change in `interval_s` if the rate stays.
   Estimate expected(double interval_s) const { return {followed_1_s_ * interval_s}; }
 
  private:
   double followed_1_s_ = 0;
-  double variance_ = 0;    ///< of its error, what differs from frame to frame
-  double shared_1_s_ = 0;  ///< what lasts
+  double variance_ = 0;    ///< of the part that differs from frame to frame
+  double shared_1_s_ = 0;  ///< the lasting part of its error
 };
 
 }  // namespace spidar
