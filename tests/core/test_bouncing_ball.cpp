@@ -9,6 +9,7 @@
 // impact in the interval, it lies between the velocities before and after, and is exact as well.
 #include "core/analysis/motion_analyzer.h"
 #include "core/field/block_search.h"
+#include "core/motion/objects/object_tracker.h"
 #include "tests/support/ball_scene.h"
 #include "tests/support/picture.h"
 #include "tests/support/test.h"
@@ -126,6 +127,27 @@ TEST(BouncingBall, ThatIsSmallIsFeltAgainSoonAfterItTurned) {
           << "frame " << n << " of " << rate_Hz << " a second, impact before " << impact;
     }
   }
+}
+
+TEST(BouncingBall, IsTheSameOnlyIfItIsKnownWellAndNoLayer) {
+  constexpr double kSpeed_px = 6;
+  ObjectLife ball;
+  ball.state = ObjectLife::State::kHidden;
+  ball.since_s = kFrame_s;
+  ball.is_proven = true;
+  ball.blocks_seen = 4 * ObjectLife::kBornAfterBlocks;
+  ball.expected.velocity_px_s = {0, kSpeed_px / kFrame_s};
+  Region after;
+  after.relative_px = {0, -kSpeed_px};
+  EXPECT_TRUE(ball.has_bounced_to(after, kFrame_s));
+
+  --ball.blocks_seen;
+  EXPECT_FALSE(ball.has_bounced_to(after, kFrame_s)) << "seen for too short";
+  ++ball.blocks_seen;
+  ball.is_proven = false;
+  EXPECT_FALSE(ball.has_bounced_to(after, kFrame_s)) << "may be a layer";
+  ball.is_proven = ball.is_layer = true;
+  EXPECT_FALSE(ball.has_bounced_to(after, kFrame_s)) << "looks like a layer";
 }
 
 TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {

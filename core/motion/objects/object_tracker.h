@@ -84,8 +84,12 @@ struct ObjectLife {
   }
   /// Whether the region may be the object after it has bounced. In the picture with the impact, and
   /// often in the next, it moves unlike before and is out of sight. Afterwards it is no faster, and
-  /// not further away than it could get.
+  /// not further away than it could get. The motion of errors and of layers changes like that, too.
+  /// So the object must be no layer, and have been seen for kKnown times as long as its birth took:
+  /// how likely errors move alike for so long is the kKnown-th power of how likely they are born.
   bool has_bounced_to(const Region& other, double interval_s) const {
+    constexpr int kKnown = 4;
+    if (!is_proven || is_layer || blocks_seen < kKnown * kBornAfterBlocks) return false;
     constexpr double kMaxPictures = 2;  // that with the impact, and the next
     constexpr double kMaxError_px = kMaxOff_px;
     const double speed_px_s = expected.velocity_px_s.norm();
