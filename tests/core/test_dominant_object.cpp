@@ -35,6 +35,13 @@ uint32_t choice(DominantObject& dominant, const std::vector<MovingObject>& objec
   return chosen ? chosen->id : 0;
 }
 
+/// Follows object 1, of prominence 10, for long enough to leave it for something clearly more
+/// prominent only.
+void settle(DominantObject& dominant, double interval_s = kFrame_s) {
+  const int frames = static_cast<int>(DominantObject::kSettles_s / interval_s) + 2;
+  EXPECT_EQ(choice(dominant, {object(1, 10)}, frames, interval_s), 1u);
+}
+
 TEST(DominantObject, IsTheMostProminentOneToBeginWith) {
   DominantObject dominant;
   EXPECT_EQ(choice(dominant, {}, kLong), 0u);
@@ -45,16 +52,32 @@ TEST(DominantObject, StaysWhenAnotherIsALittleMoreProminent) {
   // Also at two frames a second, where a single one is longer than kReason_s.
   for (const double interval_s : {kFrame_s, 0.5}) {
     DominantObject dominant;
-    choice(dominant, {object(1, 10), object(2, 9)});
+    settle(dominant, interval_s);
     for (int n = 0; n < kLong; ++n) {
       ASSERT_EQ(choice(dominant, {object(1, 10), object(2, kClaim - 1)}, 1, interval_s), 1u) << n;
     }
   }
 }
 
+TEST(DominantObject, IsTheMoreProminentOneSoonWhicheverIsFoundFirst) {
+  // Less than a settled one is left for. The rate (3.5 − c) / (3.5 + c) is positive until c is 3.5,
+  // and the reason rises to (7 ln (7 / 4.5) − 2.5) / 3 = 0.197 · kSettles_s.
+  const double prominence = 3.5 * 10;
+  static_assert(0.197 * DominantObject::kSettles_s > DominantObject::kReason_s);
+  DominantObject dominant;
+  choice(dominant, {object(1, 10)});
+  EXPECT_EQ(choice(dominant, {object(1, 10), object(2, prominence)}, kLong), 2u);
+  dominant.reset();
+  choice(dominant, {object(2, prominence)});
+  EXPECT_EQ(choice(dominant, {object(1, 10), object(2, prominence)}, kLong), 2u);
+  dominant.reset();
+  settle(dominant);
+  EXPECT_EQ(choice(dominant, {object(1, 10), object(2, prominence)}, kLong), 1u);
+}
+
 TEST(DominantObject, StaysWhenAnotherStandsOutInAFewFramesOnly) {
   DominantObject dominant;
-  choice(dominant, {object(1, 10), object(2, 9)});
+  settle(dominant);
   // The reason rises by a quarter of a frame in each frame, and falls by half of one: by 17/4 and
   // 18/4 frames. Five are kReason_s.
   for (int n = 0; n < kLong; ++n) {
@@ -79,12 +102,13 @@ TEST(DominantObject, GoesToAnotherTheSoonerTheMoreItStandsOut) {
     const double after_s = DominantObject::kReason_s * (ratio + 1) / (ratio - 1);
     for (const double interval_s : {0.01, 0.02, 0.04}) {
       DominantObject dominant;
-      choice(dominant, {object(1, 10), object(2, 5)}, 1, interval_s);
+      settle(dominant, interval_s);
       const std::vector<MovingObject> outshone = {object(1, 10), object(2, prominence)};
       EXPECT_NEAR(time_to_leave(dominant, outshone, interval_s), after_s, 1.6 * interval_s);
       // And does not come back for less than kClearly times as much.
       const double less = (DominantObject::kClearly - 0.1) * prominence;
       const std::vector<MovingObject> again = {object(1, less), object(2, prominence)};
+      EXPECT_EQ(choice(dominant, {object(1, 1), object(2, prominence)}, 3 * kLong, interval_s), 2u);
       EXPECT_EQ(choice(dominant, again, kLong, interval_s), 2u);
     }
   }

@@ -10,10 +10,12 @@ namespace {
 /// Memory for the objects of a frame, see ObjectTracker::kMaxObjects.
 constexpr size_t kMaxRivals = 16;
 
-/// The rate at which a reason grows, see the class.
-double growth(double prominence, double of_followed) {
+/// The rate at which a reason grows against an object that has been followed for `followed_s`, see
+/// the class.
+double growth(double prominence, double of_followed, double followed_s) {
   if (prominence == 0) return -1;
-  const double claim = DominantObject::kClearly * of_followed;
+  const double settled = std::min(1.0, followed_s / DominantObject::kSettles_s);
+  const double claim = (1 + settled * (DominantObject::kClearly - 1)) * of_followed;
   return (prominence - claim) / (prominence + claim);
 }
 
@@ -43,7 +45,7 @@ DominantObject::DominantObject() {
 
 void DominantObject::reset() {
   id_ = 0;
-  lost_s_ = 0;
+  lost_s_ = followed_s_ = 0;
   rivals_.clear();
 }
 
@@ -61,6 +63,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   const bool in_sight = followed && followed->points > 0 && !is_free;
   if (in_sight) {
     lost_s_ = 0;
+    followed_s_ += interval_s;
     last_box_px_ = followed->box_px();
     last_speed_px_s_ = followed->on_screen_px_s.norm();
     newest_id_ = objects.back().id;
@@ -76,7 +79,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   for (const MovingObject& object : objects) {
     if (&object == followed) continue;
     const double more_s =
-        interval_s * growth(object.prominence, in_sight ? followed->prominence : 0);
+        interval_s * growth(object.prominence, in_sight ? followed->prominence : 0, followed_s_);
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
     const bool continues =
@@ -89,7 +92,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
   if (!in_sight) lost_s_ += interval_s;
   if (!best) return followed;
   id_ = best->id;
-  lost_s_ = 0;
+  lost_s_ = followed_s_ = 0;
   rivals_.clear();
   return best;
 }

@@ -14,11 +14,12 @@ namespace spidar {
 /// jump between similar objects, nor to one that stands out in a few frames only.
 ///
 /// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
-/// prominence of the rival, f that of the followed object, and c = kClearly. The rate is 1 when the
-/// followed object rests or is out of sight, 0 when the rival is c times as prominent, and −1
-/// when the rival rests. A rival whose reason reaches kReason_s is followed instead. An eye decides
-/// in a similar way where to look next: a signal rises to a threshold (Carpenter and Williams
-/// 1995).
+/// prominence of the rival, f that of the followed object, and c grows from 1 to kClearly in the
+/// first kSettles_s for which an object is followed: which of two objects is found first is mostly
+/// chance. The rate is 1 when the followed object rests or is out of sight, 0 when the rival is c
+/// times as prominent, and −1 when the rival rests. A rival whose reason reaches kReason_s is
+/// followed instead. An eye decides in a similar way where to look next: a signal rises to a
+/// threshold (Carpenter and Williams 1995).
 ///
 /// No reason falls below −kReason_s, nor below 0 while the followed object is out of sight. An
 /// object that has stood out for long may therefore rest for twice kReason_s. A rival that appears
@@ -43,6 +44,9 @@ class DominantObject {
   /// How many times as prominent as the followed object a rival must be. On real films, 4 to 8 make
   /// little difference; with 3, there are a tenth more changes.
   static constexpr double kClearly = 4;
+  /// How long an object is followed in sight before that holds. On real films, one second or two
+  /// make no difference.
+  static constexpr double kSettles_s = 2;
   /// The reason at which a rival is followed: an eye takes 0.2 s and more to begin to turn to a new
   /// target.
   static constexpr double kReason_s = 0.3;
@@ -56,8 +60,9 @@ class DominantObject {
   double reason_before(uint32_t id) const;
   bool may_be_it(const MovingObject& object) const;
 
-  uint32_t id_ = 0;    ///< 0: none
-  double lost_s_ = 0;  ///< since the object that is followed was in sight
+  uint32_t id_ = 0;        ///< 0: none
+  double lost_s_ = 0;      ///< since the object that is followed was in sight
+  double followed_s_ = 0;  ///< for how long it has been followed in sight
   /// Its last box, grown by how far it may have got since; how fast it was, the newest object then.
   Eigen::AlignedBox2d last_box_px_;
   double last_speed_px_s_ = 0;
