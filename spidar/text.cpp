@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <fcntl.h>
 #include <numeric>
+#include <unistd.h>
 
 namespace spidar {
 namespace {
@@ -66,6 +68,20 @@ std::string printable(std::string_view text) {
     text.remove_prefix(std::max<size_t>(length, 1));
   }
   return printed;
+}
+
+std::string beginning_of(const std::string& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return {};
+  std::array<char, 256> text{};
+  const ssize_t length = read(file, text.data(), text.size());
+  close(file);
+  return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
+}
+
+std::string first_line(const std::string& path) {
+  const std::string text = beginning_of(path);
+  return printable(text.substr(0, text.find('\n')));
 }
 
 namespace {

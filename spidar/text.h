@@ -26,6 +26,12 @@ std::string as_text(const T& value) {
 /// come from a device.
 std::string printable(std::string_view text);
 
+/// At most 256 bytes of a file, as the kernel describes devices in sysfs; empty if it cannot be
+/// read.
+std::string beginning_of(const std::string& path);
+/// Its first line, printable().
+std::string first_line(const std::string& path);
+
 /// Returns "; did you mean max-force?" for a word that is nearly one of `known`; else empty.
 std::string meant(const std::string& word, const std::vector<std::string>& known);
 

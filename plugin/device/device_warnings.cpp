@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "plugin/gobject/bus_messages.h"
@@ -14,6 +13,7 @@
 #include "spidar/grip/string_causes.h"
 #include "spidar/grip/tension_command.h"
 #include "spidar/session/device_factory.h"
+#include "spidar/text.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -61,16 +61,10 @@ std::string directions_text(const std::array<bool, 3>& force) {
 
 /// "force to the sides, up and down, up to 3.0 N (1 N by max-force), no torque"
 std::string rendered_text(const GripAbilities& can, double max_force_N) {
-  char most[64];
   const double accepted_N = std::floor(10 * can.largest_force_N) / 10;  // by max-force
-  const int length = std::snprintf(most, sizeof most, "%.1f N", accepted_N);
-  if (max_force_N < can.largest_force_N) {
-    std::snprintf(most + length, sizeof most - static_cast<size_t>(length), " (%g N by max-force)",
-                  max_force_N);
-  }
-  if (!can.direction) {
-    return std::string("the strength of the force, not its direction, up to ") + most;
-  }
+  std::string most = formatted("%.1f N", accepted_N);
+  if (max_force_N < can.largest_force_N) most += formatted(" (%g N by max-force)", max_force_N);
+  if (!can.direction) return "the strength of the force, not its direction, up to " + most;
   return "force " + directions_text(can.force) + ", up to " + most +
          (can.torque ? ", and torque" : ", no torque");
 }

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
 #include <vector>
+
+#include "spidar/text.h"
 
 namespace spidar {
 
@@ -27,9 +28,7 @@ struct PlotAxis {
     return values;
   }
   std::string label(double value) const {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", decimals, value == 0 ? 0.0 : value);  // avoids "-0"
-    return text;
+    return formatted("%.*f", decimals, value == 0 ? 0.0 : value);  // avoids "-0"
   }
   /// 0 at `low`, 1 at `high`; smaller and larger values map beyond.
   double fraction(double value) const { return (value - low) / (high - low); }

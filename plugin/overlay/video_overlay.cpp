@@ -3,7 +3,6 @@
 #include "plugin/overlay/video_overlay.h"
 
 #include <cmath>
-#include <cstdio>
 
 #include <opencv2/imgproc.hpp>
 
@@ -11,6 +10,7 @@
 #include "plugin/frame/point_owners.h"
 #include "plugin/gobject/ref.h"
 #include "plugin/overlay/arrow.h"
+#include "spidar/text.h"
 
 namespace spidar {
 namespace {
@@ -211,10 +211,9 @@ void draw_felt(const Wrench& wrench, const ArrowStyle& style, Sheet& sheet) {
   draw_arrow(*felt, 0, felt->color, sheet);
   const double force_N = wrench.force_N.norm();
   if (force_N < kFeltForce_N) return;
-  char newtons[32];
-  std::snprintf(newtons, sizeof newtons, "%.1f N", force_N);
   const Eigen::Vector2d along = (felt->tip_px - felt->tail_px).normalized();
-  sheet.text(newtons, felt->tip_px + 2 * felt->width_px * along, along, style.turn);
+  sheet.text(formatted("%.1f N", force_N), felt->tip_px + 2 * felt->width_px * along, along,
+             style.turn);
 }
 
 void draw_touch(const TouchMark& touch, const PicturePart& visible, ArrowStyle style,
@@ -272,9 +271,8 @@ void draw_curve(const ForceCurve& curve, const DrawnFrame& report, Sheet& sheet)
     before_px = now_px;
   }
   if (before_px) sheet.circle(*before_px, 5 * thin_px, 0, kProxy);
-  char top[32];
-  std::snprintf(top, sizeof top, "%g N", curve.axis().high);
-  sheet.text(top, level_px(0, 1), turn.to_stored(Eigen::Vector2d(1, 0)), turn);
+  sheet.text(formatted("%g N", curve.axis().high), level_px(0, 1),
+             turn.to_stored(Eigen::Vector2d(1, 0)), turn);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "core/number_text.h"
 #include "plugin/films/text_lines.h"
+#include "spidar/text.h"
 
 namespace spidar::tools {
 namespace {
@@ -255,10 +256,8 @@ void write_csv(const SampleSource& samples, const WriteText& write) {
   write("\n");
   size_t count = 0;
   samples.each([&](const TrackSample& sample) {
-    char time[32];
-    std::snprintf(time, sizeof time, "%zu.%03zu", count / kTrackRate_Hz, count % kTrackRate_Hz);
+    std::string line = formatted("%zu.%03zu", count / kTrackRate_Hz, count % kTrackRate_Hz);
     ++count;
-    std::string line = time;
     for (size_t i = 0; i < kTrackChannels; ++i) {
       line += ',';
       line +=

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/text.h"
 
 namespace spidar::selftest {
 namespace {
@@ -177,12 +177,11 @@ class Asking {
       const double moved_m =
           metres_per_count(j) * (reading.count[static_cast<size_t>(j)] - at_rest_[j]);
       if (std::fabs(moved_m) < kRunaway_m) continue;
-      char text[200];
-      std::snprintf(text, sizeof text,
-                    ": encoder %d ran by %.0f mm when motor %d pulled; hold the grip, and if it "
+      throw DeviceError(
+          device_.name() +
+          formatted(": encoder %d ran by %.0f mm when motor %d pulled; hold the grip, and if it "
                     "was held, string %d is broken, or the motor's wires are reversed",
-                    j, 1e3 * std::fabs(moved_m), pulling_, j);
-      throw DeviceError(device_.name() + text);
+                    j, 1e3 * std::fabs(moved_m), pulling_, j));
     }
   }
 

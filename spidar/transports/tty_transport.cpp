@@ -8,7 +8,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <filesystem>
-#include <fstream>
 #include <linux/serial.h>
 #include <poll.h>
 #include <sys/ioctl.h>
@@ -55,12 +54,7 @@ DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs) {
   fs::path device =
       fs::canonical(sysfs + "/class/tty/" + line.filename().string() + "/device", error);
   if (error) device.clear();
-  const auto attribute = [&device](const char* name) {
-    std::ifstream file(device / name);
-    std::string text;
-    std::getline(file, text);
-    return printable(text);
-  };
+  const auto attribute = [&device](const char* name) { return first_line(device / name); };
   // The line is a part of an interface of the adapter, which is the first device with a vendor.
   std::string interface;
   for (; device.has_relative_path(); device = device.parent_path()) {

@@ -3,10 +3,7 @@
 #include "spidar/transports/usb_transport.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <fcntl.h>
 #include <poll.h>
-#include <string_view>
 #include <unistd.h>
 #include <utility>
 
@@ -32,21 +29,13 @@ std::string bus_path(libusb_device* device) {
 /// The serial number as the kernel read it when the device was plugged in; reading it from the
 /// device requires opening it.
 std::string kernel_serial(const std::string& path) {
-  const int file = open(("/sys/bus/usb/devices/" + path + "/serial").c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return {};
-  std::array<char, 256> text{};
-  const ssize_t length = read(file, text.data(), text.size());
-  close(file);
-  const std::string_view serial(text.data(), length > 0 ? static_cast<size_t>(length) : 0);
-  return printable(serial.substr(0, serial.find('\n')));
+  return first_line("/sys/bus/usb/devices/" + path + "/serial");
 }
 
 }  // namespace
 
 std::string UsbDeviceInfo::device_file() const {
-  std::array<char, 64> name{};
-  std::snprintf(name.data(), name.size(), "/dev/bus/usb/%03d/%03d", bus, address);
-  return name.data();
+  return formatted("/dev/bus/usb/%03d/%03d", bus, address);
 }
 
 UsbContext make_usb_context() {
@@ -217,9 +206,7 @@ int open_file(libusb_context* context) {
 }  // namespace
 
 std::string UsbId::text() const {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%04x:%04x", vendor, product);
-  return text.data();
+  return formatted("%04x:%04x", vendor, product);
 }
 
 UsbTransport::UsbTransport(std::string name, const UsbId& id) : name_(std::move(name)), id_(id) {}

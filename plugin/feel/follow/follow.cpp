@@ -23,6 +23,7 @@
 #include "plugin/feel/follow/position_filter.h"
 #include "plugin/gobject/ref.h"
 #include "spidar/realtime/monotonic.h"
+#include "spidar/text.h"
 
 namespace spidar::follow {
 namespace {
@@ -323,9 +324,10 @@ class Follower {
       tell_once(name + " does not tell where it is in its film" + kHelp);
       is_placed_ = false;
     } else if (now_ns - moved_ns > kLost_ns) {
-      char at[32];
-      std::snprintf(at, sizeof at, "%.1f s", 1e-9 * static_cast<double>(position_ns_));
-      tell_once(name + " says that it plays, and that it stands at " + at + kHelp);
+      tell_once(name +
+                formatted(" says that it plays, and that it stands at %.1f s",
+                          1e-9 * static_cast<double>(position_ns_)) +
+                kHelp);
       is_placed_ = false;
     } else if (!is_placed_ && filter_.newest_ns() > began_ns_) {
       is_placed_ = true;

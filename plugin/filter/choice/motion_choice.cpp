@@ -2,12 +2,12 @@
 // Copyright 2026 the gst-spidar authors
 #include "plugin/filter/choice/motion_choice.h"
 
-#include <cstdio>
 #include <stdexcept>
 
 #include "plugin/frame/object_metas.h"
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
+#include "spidar/text.h"
 
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
@@ -161,10 +161,9 @@ void MotionChoice::warn_of_click(const KeptObject& kept, Chosen::State state) {
     inform("The object that was clicked is lost at " + seen_text() + ".",
            "What 'motion' and 'feel' say is felt again.");
   } else {
-    char text[80];
-    std::snprintf(text, sizeof text, "No object is at %.2f,%.2f, where the mouse was clicked.",
-                  kept.position.x(), kept.position.y());
-    inform(text, "An object moves by itself.");
+    inform(formatted("No object is at %.2f,%.2f, where the mouse was clicked.", kept.position.x(),
+                     kept.position.y()),
+           "An object moves by itself.");
   }
 }
 

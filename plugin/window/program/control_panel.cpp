@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "plugin/window/program/panels.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 namespace {
@@ -265,13 +266,10 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
 
   // Draws from the right, as much as fits.
   std::vector<std::string> parts;
-  char text[96];
-  std::snprintf(text, sizeof text, "%.1f s", 1e-9 * static_cast<double>(report.stamp.running_ns));
-  parts.emplace_back(text);
+  parts.push_back(formatted("%.1f s", 1e-9 * static_cast<double>(report.stamp.running_ns)));
   if (!report.track) {
-    std::snprintf(text, sizeof text, "analysis %.1f ms a frame",
-                  1e-6 * static_cast<double>(report.took_ns));
-    parts.emplace_back(text);
+    parts.push_back(
+        formatted("analysis %.1f ms a frame", 1e-6 * static_cast<double>(report.took_ns)));
     parts.push_back(count_of(report.frame.objects.size(), "object"));
   }
   if (state.device) {

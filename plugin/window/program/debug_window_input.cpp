@@ -2,13 +2,13 @@
 // Copyright 2026 the gst-spidar authors
 // The user's input to a debug window, and choices of objects in the picture.
 #include <cmath>
-#include <cstdio>
 #include <imgui.h>
 #include <limits>
 
 #include <GLFW/glfw3.h>
 
 #include "plugin/window/program/debug_window.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 namespace {
@@ -113,10 +113,8 @@ bool DebugWindow::offers_hand() const {
 /// the hand touches the picture, how deep it is.
 std::string DebugWindow::hint() const {
   if (hand_.holds() && report_.touch.on) {
-    char text[96];
-    std::snprintf(text, sizeof text, "Hand %.1f mm %s. Wheel or Shift+drag: away or near",
-                  std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
-    return text;
+    return formatted("Hand %.1f mm %s. Wheel or Shift+drag: away or near",
+                     std::fabs(1e3 * hand_.z_m()), hand_.z_m() > 0 ? "near" : "away");
   }
   const std::string track =
       report_.track ? "Playing " + report_.track->substr(report_.track->rfind('/') + 1) + ". " : "";

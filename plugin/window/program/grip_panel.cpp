@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include "core/force/motion_rendering.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 namespace {
@@ -97,8 +97,7 @@ void draw_force(const GripView& view, const Rect& panel, const Wrench& wrench, d
   brush.list.AddTriangleFilled(im(to + head * along), im(to + 0.6 * head * side),
                                im(to - 0.6 * head * side), color);
   if (!which) return;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f N%s", force_N, which);
+  const std::string text = formatted("%.1f N%s", force_N, which);
   const ImVec2 text_px = text_size(brush.fonts.bold, text);
   const Eigen::Vector2d size(text_px.x + brush.px(10), text_px.y + brush.px(4));
   const Eigen::Vector2d low(panel.x, panel.y), high(panel.right(), panel.bottom());
@@ -172,8 +171,7 @@ void draw_tensions(const Brush& brush, const Rect& panel, const DeviceView& devi
     const double least_N = device.min_tension_N[i];
     brush.list.AddLine(plot.at(i - 1.2 * kHalfBar, least_N), plot.at(i + 1.2 * kHalfBar, least_N),
                        kTextColor);
-    char value[16];
-    std::snprintf(value, sizeof value, "%.1f", tension_N);
+    const std::string value = formatted("%.1f", tension_N);
     const ImVec2 top = plot.at(i, most_N);
     if (text_size(font, value).x > plot.area().width / count) continue;
     draw_text(brush, font, {top.x - text_size(font, value).x / 2, top.y - font->FontSize - 2},

@@ -4,13 +4,13 @@
 #include <array>
 #include <cfloat>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "core/force/motion_rendering.h"
 #include "plugin/frame/point_owners.h"
 #include "plugin/overlay/arrow.h"
 #include "plugin/window/program/panels.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 namespace {
@@ -122,8 +122,7 @@ void draw_objects(const Overlay& over) {
 void draw_size(const Overlay& over, double force_N, const char* which,
                const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
   if (force_N < kFeltForce_N) return;
-  char text[48];
-  std::snprintf(text, sizeof text, "%.1f N%s", force_N, which);
+  const std::string text = formatted("%.1f N%s", force_N, which);
   const ImFont* font = over.brush.fonts.bold;
   const Eigen::Vector2d size(text_size(font, text).x + over.brush.px(10),
                              font->FontSize + over.brush.px(4));

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 
 #include "core/wrench_size.h"
 #include "plugin/window/program/panels.h"
 #include "plugin/window/program/plot.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 namespace {
 
 constexpr double kMinSpeed_px_s = 100, kHeadroom = 1.1;
 constexpr int kCurvePoints = 64;
-
-std::string number(const char* format, double value) {
-  char text[48];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 /// The last seconds, as seconds before the newest moment.
 PlotAxis time_axis(const Brush& brush, const Rect& panel, const Timeline& timeline) {
@@ -47,11 +41,11 @@ std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Inde
 /// Shows, beside the mouse, the largest delivered force in this pixel's width.
 void tell_force(double at_s, const ForceColumn& column) {
   if (column.is_empty) return;
-  std::string text = number("%.2f s", at_s) + number(": %.2f N", column.most_N);
+  std::string text = formatted("%.2f s: %.2f N", at_s, column.most_N);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     const double low_N = column.delivered_low_N[axis], high_N = column.delivered_high_N[axis];
     const double largest_N = -low_N > high_N ? low_N : high_N;
-    text += std::string("\n") + kAxisNames[axis] + number(" %+.2f N", largest_N);
+    text += formatted("\n%s %+.2f N", kAxisNames[axis], largest_N);
   }
   ImGui::SetTooltip("%s", text.c_str());
 }
@@ -96,8 +90,7 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
   std::string note;
   if (!moments.empty()) {
     const Wrench& felt = moments.back().felt;
-    note =
-        number("%.2f N, ", felt.force_N.norm()) + number("%.0f mN m", 1e3 * felt.torque_Nm.norm());
+    note = formatted("%.2f N, %.0f mN m", felt.force_N.norm(), 1e3 * felt.torque_Nm.norm());
   }
   const Rect content = draw_panel(brush, panel, "Force", note);
   const double end_s = timeline.newest_s(), begin_s = end_s - timeline.plotted_s();
@@ -127,8 +120,9 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
 
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline) {
   const std::vector<Moment> moments = timeline.plotted();
-  const Rect content = draw_panel(
-      brush, panel, "Speed", moments.empty() ? "" : number("%.0f px/s", moments.back().speed_px_s));
+  const Rect content =
+      draw_panel(brush, panel, "Speed",
+                 moments.empty() ? "" : formatted("%.0f px/s", moments.back().speed_px_s));
   const PlotAxis y =
       make_axis(0, highest_speed_px_s(timeline), Plot::steps_up(brush, content.height));
   const Plot plot(brush, content, time_axis(brush, content, timeline), y, "s", "px/s at 480 lines");

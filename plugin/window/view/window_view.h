@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include "core/wrench_size.h"
 #include "plugin/device/device_view.h"
 #include "plugin/frame/frame_report.h"
+#include "spidar/text.h"
 
 namespace spidar::window {
 
@@ -66,11 +66,8 @@ inline std::string felt_line(const ElementState& state, const TouchScene& touch,
   if (!is_felt) return "felt within the last second";
   const double wanted_N_m = state.value("touch-stiffness", 0);
   if (!touch.on || touch.stiffness_N_m >= wanted_N_m) return "felt";
-  char text[96];
-  std::snprintf(text, sizeof text,
-                "felt, at %.0f N/m instead of %.0f: the device's drives are slow",
-                touch.stiffness_N_m, wanted_N_m);
-  return text;
+  return formatted("felt, at %.0f N/m instead of %.0f: the device's drives are slow",
+                   touch.stiffness_N_m, wanted_N_m);
 }
 
 }  // namespace spidar::window

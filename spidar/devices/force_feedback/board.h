@@ -4,7 +4,6 @@
 #pragma once
 
 #include <atomic>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "spidar/devices/force_feedback/stick_effects.h"
 #include "spidar/link/board.h"
 #include "spidar/profiles/profile.h"
+#include "spidar/text.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar::boards {
@@ -54,12 +54,8 @@ class ForceFeedback final : public ForceBoard {
   std::string description() const override {
     const ff::Description& found = effects_->description();
     std::string text = found.name.data();
-    if (effects_->gain() < 1) {
-      char fraction[40];
-      std::snprintf(fraction, sizeof fraction, " at %.0f %% of its strength",
-                    100 * effects_->gain());
-      text += fraction;
-    }
+    const double gain = effects_->gain();
+    if (gain < 1) text += formatted(" at %.0f %% of its strength", 100 * gain);
     if (!found.constant) {
       return text + ", rumble only: the strength of the force is felt, not its direction";
     }

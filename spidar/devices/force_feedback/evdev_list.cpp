@@ -3,11 +3,9 @@
 #include "spidar/devices/force_feedback/evdev_list.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <dirent.h>
-#include <fcntl.h>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -19,22 +17,6 @@ namespace spidar {
 namespace {
 
 constexpr const char* kSysfs = "/sys/class/input";
-
-/// Returns the beginning of a file; empty when the file cannot be read.
-std::string beginning(const std::string& path) {
-  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return {};
-  std::array<char, 256> text{};
-  const ssize_t length = ::read(file, text.data(), text.size());
-  ::close(file);
-  return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
-}
-
-/// Returns the first line of an attribute; empty when the file cannot be read.
-std::string attribute(const std::string& path) {
-  const std::string text = beginning(path);
-  return printable(text.substr(0, text.find('\n')));
-}
 
 /// Tests a bit in the words of sysfs: hexadecimal, of the size of a long, the highest first.
 bool has_bit(const std::string& words, unsigned bit) {
@@ -69,15 +51,15 @@ std::vector<EvdevInfo> list_force_feedback() {
   for (const int number : event_numbers()) {
     const std::string event = "event" + std::to_string(number);
     const std::string device = std::string(kSysfs) + "/" + event + "/device/";
-    const std::string bits = attribute(device + "capabilities/ff");
+    const std::string bits = first_line(device + "capabilities/ff");
     EvdevInfo info;
     info.constant = has_bit(bits, FF_CONSTANT);
     if (!info.constant && !has_bit(bits, FF_RUMBLE)) continue;
     info.path = "/dev/input/" + event;
-    info.name = attribute(device + "name");
-    info.serial = attribute(device + "uniq");
-    info.id = attribute(device + "id/vendor") + ":" + attribute(device + "id/product");
-    info.place = attribute(device + "phys");
+    info.name = first_line(device + "name");
+    info.serial = first_line(device + "uniq");
+    info.id = first_line(device + "id/vendor") + ":" + first_line(device + "id/product");
+    info.place = first_line(device + "phys");
     info.accessible = access(info.path.c_str(), R_OK | W_OK) == 0;
     devices.push_back(info);
   }
@@ -89,8 +71,7 @@ std::vector<EvdevInfo> list_force_feedback() {
 DeviceIdentity evdev_identity(int file) {
   input_id id{};
   call_ioctl(file, EVIOCGID, &id);
-  std::array<char, 16> numbers{};
-  std::snprintf(numbers.data(), numbers.size(), "%04x:%04x", id.vendor, id.product);
+  const std::string numbers = formatted("%04x:%04x", id.vendor, id.product);
   std::array<char, 256> name{}, serial{}, place{};  // the first line, as in sysfs
   const auto line = [](const std::array<char, 256>& text) {
     return printable({text.data(), std::strcspn(text.data(), "\n")});
@@ -98,7 +79,7 @@ DeviceIdentity evdev_identity(int file) {
   call_ioctl(file, EVIOCGNAME(name.size() - 1), name.data());
   call_ioctl(file, EVIOCGUNIQ(serial.size() - 1), serial.data());
   call_ioctl(file, EVIOCGPHYS(place.size() - 1), place.data());
-  return EvdevInfo{{}, line(name), line(serial), numbers.data(), line(place)}.identity();
+  return EvdevInfo{{}, line(name), line(serial), numbers, line(place)}.identity();
 }
 
 std::string without_links(const std::string& path) {
@@ -112,7 +93,7 @@ std::string evdev_driver(const std::string& path) {
   // The parent of an input device is the device that the driver is bound to, for example on the HID
   // bus. The parent's uevent file has a line DRIVER=NAME (dev_uevent() in drivers/base/core.c).
   const std::string of_parent = file.filename().string() + "/device/device/uevent";
-  const std::string uevent = "\n" + beginning(std::string(kSysfs) + "/" + of_parent);
+  const std::string uevent = "\n" + beginning_of(std::string(kSysfs) + "/" + of_parent);
   constexpr const char* kKey = "\nDRIVER=";
   const size_t key = uevent.find(kKey);
   if (key == std::string::npos) return {};

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <memory>
 #include <string>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "spidar/devices/sound/packets.h"
 #include "spidar/link/board.h"
 #include "spidar/link/board_parts.h"
+#include "spidar/text.h"
 #include "spidar/transports/transport.h"
 
 namespace spidar::boards {
@@ -57,17 +57,12 @@ class Sound final : public OnTransport<ForceBoard> {
   }
   std::vector<LastWill> last_wills() const override { return {}; }
   std::string description() const override {
-    char text[120];
-    const int length = std::snprintf(
-        text, sizeof text, "%d channel%s of a sound card, %d Hz at %.0f %% of full volume",
-        settings_.channels, settings_.channels > 1 ? "s" : "", settings_.carrier_Hz,
-        100 * settings_.gain);
+    const std::string text = formatted(
+        "%d channel%s of a sound card, %d Hz at %.0f %% of full volume", settings_.channels,
+        settings_.channels > 1 ? "s" : "", settings_.carrier_Hz, 100 * settings_.gain);
     const int64_t lag_ns = lag_ns_;
-    if (lag_ns > 0) {  // the lag is known once the card plays
-      std::snprintf(text + length, sizeof text - static_cast<size_t>(length),
-                    ", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
-    }
-    return text;
+    if (lag_ns <= 0) return text;  // the lag is known once the card plays
+    return text + formatted(", heard after %.0f ms", 1e-6 * static_cast<double>(lag_ns));
   }
   std::string warning() const override {
     constexpr int kOften = 3;  // once or twice is a busy moment
