@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The object that the hand follows.
 #pragma once
 
 #include <cstdint>
@@ -10,26 +9,26 @@
 
 namespace spidar {
 
-/// Stays with an object until there has been reason enough to leave it, so that the force does not
-/// jump between similar objects, nor to one that stands out in a few frames only.
+/// The object that the hand follows. Stays with an object until there has been reason enough to
+/// leave it, so that the force does not jump between similar objects, nor to one that stands out in
+/// a few frames only.
 ///
 /// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
 /// prominence of the rival, f that of the followed object, and c grows from 1 to kClearly in the
-/// first kSettles_s for which an object is followed: which of two objects is found first is mostly
-/// chance. The rate is 1 when the followed object rests or is out of sight, 0 when the rival is c
-/// times as prominent, and −1 when the rival rests. A rival whose reason reaches kReason_s is
-/// followed instead. An eye decides in a similar way where to look next: a signal rises to a
-/// threshold (Carpenter and Williams 1995).
+/// first kSettles_s in which an object is visible, because which of two objects is found first is
+/// mostly chance. The rate is 1 when the followed object rests or is invisible, 0 when the rival is
+/// c times as prominent, and −1 when the rival rests. A rival whose reason reaches kReason_s
+/// replaces the followed object. An eye decides in a similar way where to look next: a signal rises
+/// to a threshold (Carpenter and Williams 1995).
 ///
-/// No reason falls below −kReason_s, nor below 0 while the followed object is out of sight. An
-/// object that has stood out for long may therefore rest for twice kReason_s. A rival that appears
-/// while the followed object is out of sight begins with half of the time for which the followed
-/// one has been lost: after twice kReason_s it is followed at once. So are the first object, any
-/// object after the followed one has left at the border of the picture, and one that covers half of
-/// the position at which the followed one would be while it is out of sight: it is a part of the
-/// same object. An object that first appears where the followed one may have gone since it was
-/// lost, however it has turned, is taken for that one: a ball that bounces in a frame in which it
-/// is not found.
+/// No reason falls below −kReason_s, nor below 0 while the followed object is invisible. An object
+/// that has stood out for long may therefore rest for twice kReason_s. A rival that appears while
+/// the followed object is invisible begins with half of the time for which the followed one has
+/// been lost: after twice kReason_s it is followed at once. So are the first object, any object
+/// after the followed one has left at the border of the picture, and one that covers half of the
+/// position at which the followed one would be while it is invisible: it is a part of the same
+/// object. An object that first appears where the followed one may have gone since it was lost, in
+/// any direction, is taken for that one: a ball that bounces in a frame in which it is not found.
 class DominantObject {
  public:
   DominantObject();
@@ -44,11 +43,10 @@ class DominantObject {
   /// How many times as prominent as the followed object a rival must be. On real films, 4 to 8 make
   /// little difference; with 3, there are a tenth more changes.
   static constexpr double kClearly = 4;
-  /// How long an object is followed in sight before that holds. On real films, one second or two
-  /// make no difference.
+  /// How long an object must be followed, and be visible, before c reaches kClearly. On real films,
+  /// one second and two make no difference.
   static constexpr double kSettles_s = 2;
-  /// The reason at which a rival is followed: an eye takes 0.2 s and more to begin to turn to a new
-  /// target.
+  /// The reason at which a rival is followed: an eye takes 0.2 s and more to turn to a new target.
   static constexpr double kReason_s = 0.3;
 
  private:
@@ -61,9 +59,10 @@ class DominantObject {
   bool may_be_it(const MovingObject& object) const;
 
   uint32_t id_ = 0;        ///< 0: none
-  double lost_s_ = 0;      ///< since the object that is followed was in sight
+  double lost_s_ = 0;      ///< since the followed object was visible
   double followed_s_ = 0;  ///< for how long it has been followed in sight
-  /// Its last box, grown by how far it may have got since; how fast it was, the newest object then.
+  /// The followed object's last box, grown by how far it may have moved since, its last speed, and
+  /// the id of the newest object then.
   Eigen::AlignedBox2d last_box_px_;
   double last_speed_px_s_ = 0;
   uint32_t newest_id_ = 0;
