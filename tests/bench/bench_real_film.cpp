@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures how one method of finding motion does on one film. Prints a line `frame,x,y,ms,height`
-/// for each frame: its motion in px since the previous frame, the processor time for it without
-/// decoding, and the height of the picture.
+/// Measures how one method of finding motion does on one film. Prints a line
+/// `frame,ms,height,x,y...` for each frame: the processor time for it without decoding, the height
+/// of the picture, and its motion in px since the previous frame, by threshold (flow_methods.h).
 ///   spidar-bench real_film METHOD FILM
 /// METHOD is one of flow_methods.h, or `vectors`: the motion vectors of the coded film, which must
 /// be H.264 without B frames (of HEVC, FFmpeg's decoder gives none).
@@ -43,9 +43,9 @@ int64_t cpu_ns() {
 /// The motion vectors that a decoded frame carries, as a method.
 class Vectors {
  public:
-  Vector2d find(const AVFrame& frame) {
+  std::vector<Vector2d> find(const AVFrame& frame) {
     const AVFrameSideData* side = av_frame_get_side_data(&frame, AV_FRAME_DATA_MOTION_VECTORS);
-    if (!side) return Vector2d::Zero();
+    if (!side) return std::vector<Vector2d>(spidar::bench::thresholds().size(), Vector2d::Zero());
     FlowGrid flow(frame.width, frame.height);
     const auto* vectors = reinterpret_cast<const AVMotionVector*>(side->data);
     const size_t count = side->size / sizeof(AVMotionVector);
@@ -142,9 +142,11 @@ int spidar::bench::real_film(int argc, char** argv) {
   Film(argv[2]).play([&](const AVFrame& frame, int64_t time_ns) {
     const int64_t begin_ns = cpu_ns();
     const ImageView luma{frame.data[0], frame.width, frame.height, frame.linesize[0]};
-    const Vector2d found_px = method ? method->find(luma, time_ns) : vectors.find(frame);
-    std::printf("%d,%.4f,%.4f,%.4f,%d\n", n++, found_px.x(), found_px.y(),
-                1e-6 * static_cast<double>(cpu_ns() - begin_ns), frame.height);
+    const std::vector<Vector2d> found_px =
+        method ? method->find(luma, time_ns) : vectors.find(frame);
+    std::printf("%d,%.4f,%d", n++, 1e-6 * static_cast<double>(cpu_ns() - begin_ns), frame.height);
+    for (const Vector2d& each_px : found_px) std::printf(",%.4f,%.4f", each_px.x(), each_px.y());
+    std::printf("\n");
   });
   return 0;
 }

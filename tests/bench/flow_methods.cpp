@@ -20,9 +20,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// What differs from the background by a pixel of a frame 480 lines high and by this fraction of
-/// how it moved moves by itself: of four thresholds tried, the one with which DIS is right most
-/// often.
+/// What differs from the background by a threshold and by this fraction of how it moved moves by
+/// itself.
 constexpr double kMinFraction = 0.2;
 constexpr double kReferenceLines = 480;
 
@@ -36,13 +35,11 @@ class Element final : public Method {
   explicit Element(const AnalyzerSettings& settings, double size = 1)
       : analyzer_(settings), size_(size) {}
 
-  Vector2d find(const ImageView& frame, int64_t time_ns) override {
-    if (size_ < 1) {
-      cv::resize(as_mat(frame), small_, {}, size_, size_, cv::INTER_AREA);
-      return look({small_.data, small_.cols, small_.rows, static_cast<int>(small_.step)}, time_ns) /
-             size_;
-    }
-    return look(frame, time_ns);
+  std::vector<Vector2d> find(const ImageView& frame, int64_t time_ns) override {
+    if (size_ == 1) return {look(frame, time_ns)};
+    cv::resize(as_mat(frame), small_, {}, size_, size_, cv::INTER_AREA);
+    const ImageView small{small_.data, small_.cols, small_.rows, static_cast<int>(small_.step)};
+    return {look(small, time_ns) / size_};
   }
 
  private:
@@ -62,13 +59,13 @@ class PictureFlow : public Method {
  public:
   explicit PictureFlow(double size) : size_(size) {}
 
-  Vector2d find(const ImageView& frame, int64_t) final {
+  std::vector<Vector2d> find(const ImageView& frame, int64_t) final {
     const cv::Mat luma = as_mat(frame);
     if (size_ < 1)
       cv::resize(luma, now_, {}, size_, size_, cv::INTER_AREA);
     else
       luma.copyTo(now_);
-    Vector2d found = Vector2d::Zero();
+    std::vector<Vector2d> found(thresholds().size(), Vector2d::Zero());
     if (before_.size() == now_.size()) {
       FlowGrid flow(frame.width, frame.height);
       compare(before_, now_, flow);
@@ -230,31 +227,59 @@ Vector2d FlowGrid::at_px(size_t i) const {
           kStep_px * (static_cast<double>(i / columns_of) + 0.5 - rows / 2.0)};
 }
 
-Vector2d LargestRegion::find(const FlowGrid& flow, double px_of_480_lines) {
+const std::vector<Threshold>& thresholds() {
+  static const std::vector<Threshold> all = [] {
+    std::vector<Threshold> tried;
+    for (const double px : {1.0, 2.0, 4.0}) {
+      for (const size_t cells : {size_t{3}, size_t{8}, size_t{24}, size_t{48}})
+        tried.push_back({px, cells});
+    }
+    return tried;
+  }();
+  return all;
+}
+
+std::vector<Vector2d> LargestRegion::find(const FlowGrid& flow, double px_of_480_lines) {
+  std::vector<Vector2d> found(thresholds().size(), Vector2d::Zero());
   WeightedDisplacements evidence;
   for (size_t i = 0; i < flow.known.size(); ++i) {
     if (flow.known[i]) evidence.points.push_back({flow.at_px(i), flow.moved_px[i]});
   }
-  if (evidence.points.size() < 16) return Vector2d::Zero();
+  if (evidence.points.size() < 16) return found;
   evidence.weights.assign(evidence.points.size(), 1.0);
   evidence.sigma_px = px_of_480_lines;
   const MotionModel start = find_start(evidence, {MotionModel(), last_});
   last_ = fit_robustly(ModelKind::kHomography, start, evidence).value_or(start);
   rest_px_.assign(flow.known.size(), Vector2d::Zero());
+  for (size_t i = 0; i < flow.known.size(); ++i) {
+    if (flow.known[i]) rest_px_[i] = flow.moved_px[i] - last_.displacement_px(flow.at_px(i));
+  }
+  double least_px = 0;
+  std::vector<size_t> region;
+  for (size_t k = 0; k < found.size(); ++k) {
+    const Threshold& threshold = thresholds()[k];
+    if (threshold.least_px != least_px) {
+      least_px = threshold.least_px;
+      region = largest(flow, least_px * px_of_480_lines);
+    }
+    if (region.size() >= threshold.least_cells) found[k] = {median(region, 0), median(region, 1)};
+  }
+  return found;
+}
+
+std::vector<size_t> LargestRegion::largest(const FlowGrid& flow, double least_px) {
   moves_.assign(flow.known.size(), 0);
   for (size_t i = 0; i < flow.known.size(); ++i) {
-    if (!flow.known[i]) continue;
-    rest_px_[i] = flow.moved_px[i] - last_.displacement_px(flow.at_px(i));
-    moves_[i] = rest_px_[i].norm() > px_of_480_lines + kMinFraction * flow.moved_px[i].norm();
+    moves_[i] =
+        flow.known[i] && rest_px_[i].norm() > least_px + kMinFraction * flow.moved_px[i].norm();
   }
-  std::vector<size_t> largest;
+  std::vector<size_t> found;
   for (size_t i = 0; i < moves_.size(); ++i) {
     if (!moves_[i]) continue;
     std::vector<size_t> region = fill(flow, i);
-    if (region.size() > largest.size()) largest = std::move(region);
+    if (region.size() > found.size()) found = std::move(region);
   }
-  if (largest.size() < 3) return Vector2d::Zero();
-  return {median(largest, 0), median(largest, 1)};
+  return found;
 }
 
 std::vector<size_t> LargestRegion::fill(const FlowGrid& flow, size_t seed) {

@@ -17,12 +17,22 @@
 
 namespace spidar::bench {
 
+/// What counts as an object: it moves by so many px of a frame 480 lines high and more, and fills
+/// so many cells of a FlowGrid.
+struct Threshold {
+  double least_px;
+  size_t least_cells;
+};
+
+/// Those that are tried for each method that has any.
+const std::vector<Threshold>& thresholds();
+
 /// Motion of the object in px since the frame before, against the background.
 class Method {
  public:
   virtual ~Method() = default;
-  /// `frame` need not outlive the call.
-  virtual Eigen::Vector2d find(const ImageView& frame, int64_t time_ns) = 0;
+  /// By threshold, or one for all. `frame` need not outlive the call.
+  virtual std::vector<Eigen::Vector2d> find(const ImageView& frame, int64_t time_ns) = 0;
 };
 
 /// By name:
@@ -55,9 +65,11 @@ struct FlowGrid {
 /// Median motion of the largest region that differs from a homography, against it.
 class LargestRegion {
  public:
-  Eigen::Vector2d find(const FlowGrid& flow, double px_of_480_lines);
+  /// By threshold.
+  std::vector<Eigen::Vector2d> find(const FlowGrid& flow, double px_of_480_lines);
 
  private:
+  std::vector<size_t> largest(const FlowGrid& flow, double least_px);
   std::vector<size_t> fill(const FlowGrid& flow, size_t seed);
   double median(const std::vector<size_t>& region, Eigen::Index coordinate) const;
 

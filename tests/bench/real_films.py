@@ -151,7 +151,7 @@ def play(build, film, properties=()):
 
 
 def measure(program, method, film):
-    """The frames of a film as one of METHODS finds them, and the milliseconds that each takes."""
+    """The frames of a film as one of METHODS finds them, by threshold, and the milliseconds that each takes."""
     with tempfile.TemporaryDirectory() as folder:
         if method == "vectors":
             coded = Path(folder) / "coded.mp4"
@@ -161,8 +161,8 @@ def measure(program, method, film):
         lines = subprocess.run([program, "real_film", method, film], check=True, stdout=subprocess.PIPE,
                                text=True).stdout.splitlines()
     rows = [[float(v) for v in line.split(",")] for line in lines]
-    frames = [Frame((row[1], row[2]), 1 / FRAMES_A_SECOND, row[4]) for row in rows]
-    return frames, [row[3] for row in rows[UNSEEN:]]
+    frames = [[Frame((row[at], row[at + 1]), 1 / FRAMES_A_SECOND, row[2]) for row in rows] for at in range(3, len(rows[0]), 2)]
+    return frames, [row[1] for row in rows[UNSEEN:]]
 
 
 def verdict(motion, true):
@@ -362,7 +362,7 @@ def main():
     for method, name in METHODS.items() if measures else ():
         tally = Tally()
         for film in films:
-            frames, times_ms = measure(program, method, film)
+            (frames, *_), times_ms = measure(program, method, film)
             tally.add(frames, read_truth(film), times_ms)
         print(tally.row(name), flush=True)
         tallies[name] = tally
