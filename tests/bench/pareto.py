@@ -107,7 +107,7 @@ def draw(rows, output):
     styles = [f"'-' using 1:2 with linespoints pt 7 lc {n} title '{kind}', '-' using 1:2:3:4 with yerrorbars pt 7 lc {n} notitle, "
               f"'-' using 1:2:5 with labels offset 1,0.7 font ',9' notitle" for n, kind in enumerate(blocks, 1)]
     script = (f'set terminal svg size 720,540 font "sans,12" background "white"; set output "{output / "pareto.svg"}"; '
-              f'set logscale x; set xrange [:{most_ms}]; set yrange [-100:100]; set grid; set key bottom left; '
+              f'set logscale x; set xrange [:{most_ms}]; set yrange [-100:100]; set grid; set key bottom right; '
               'set title "Frames that are right, less those in which something is found where nothing moves"; '
               'set xlabel "processor time of a frame, ms (one thread)"; set ylabel "right less false, %"; plot '
               + ", ".join(styles) + "\n"
