@@ -41,7 +41,7 @@ struct NotAllowed : std::runtime_error {
   throw std::runtime_error(what);
 }
 
-std::string text_of(GError* error) {
+std::string message_of(GError* error) {
   const std::string text = error ? error->message : "it does not answer";
   g_clear_error(&error);
   return text;
@@ -147,7 +147,7 @@ PortalView::PortalView(const std::string& token) : PortalView() {
     refuse(
         "there is no session bus, on which the desktop is asked for its screen: run it in the "
         "session that shows the film: " +
-        text_of(error));
+        message_of(error));
   }
   try {
     share(token);
@@ -214,7 +214,7 @@ Ref<GVariant> PortalView::call(const char* method, GVariant* arguments,
                              "package xdg-desktop-portal with xdg-desktop-portal-gnome, -kde or "
                              "-wlr has one: "
                            : "the desktop's portal fails in " + std::string(method) + ": ") +
-         text_of(error));
+         message_of(error));
 }
 
 Ref<GVariant> PortalView::ask(const char* method, std::vector<GVariant*> arguments,
