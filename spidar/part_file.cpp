@@ -240,7 +240,7 @@ bool PartFile::may_replace() const {
 bool PartFile::take(const fs::path& target, const Replaces& replaces) {
   std::error_code none;
   if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
-    throw std::runtime_error(target.string() + ": is not a regular file, and is not replaced");
+    throw std::runtime_error(target.string() + ": cannot be written: it is not a regular file");
   }
   if (!replaces.is_read) expect_not_read(target);
   target_ = target.string();
