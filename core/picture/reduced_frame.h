@@ -29,7 +29,7 @@ class ReducedFrame {
       repeated_picture_.reset();
       return picture_ = Likeness::kFirst;
     }
-    picture_ = repeated_picture_.look(before_.view(), base_.view());
+    picture_ = repeated_picture_.compare(before_.view(), base_.view());
     if (picture_ == Likeness::kAlike && may_wait) picture_ = Likeness::kSame;
     if (picture_ == Likeness::kSame) std::swap(before_, base_);
     return picture_;

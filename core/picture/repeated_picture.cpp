@@ -143,7 +143,7 @@ void RepeatedPicture::cut() {
   changes_.clear();
 }
 
-Likeness RepeatedPicture::look(const ImageView& before, const ImageView& now) {
+Likeness RepeatedPicture::compare(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
   changes_.add(change);

@@ -44,7 +44,7 @@ class RepeatedPicture {
  public:
   /// Compares `now` with `before`; both have 8 bits. Call this for every frame, in order. kSame:
   /// the same pixels, kAlike or kOther.
-  Likeness look(const ImageView& before, const ImageView& now);
+  Likeness compare(const ImageView& before, const ImageView& now);
 
   /// Call this when the next pictures are unrelated to the previous ones.
   void reset() {
@@ -58,8 +58,8 @@ class RepeatedPicture {
 
   static constexpr size_t kFrames = 12;
   /// Which of the latest frames, the newest first, repeated the previous picture, as far as known;
-  /// look() may not have known it yet. More than kMaxAtOnce in a row do not count as repetitions:
-  /// when several titles appear, all motion after each of them is small in comparison.
+  /// compare() may not have known it yet. More than kMaxAtOnce in a row do not count as
+  /// repetitions: when several titles appear, all motion after each of them is small in comparison.
   using Repeats = std::array<bool, kFrames>;
   Repeats repeats() const;
 

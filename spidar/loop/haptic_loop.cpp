@@ -141,7 +141,7 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   if (is_open) {
     grip_->check_age(now_ns);
     touch(record, passed_ns);
-    ask_callback(record, passed_ns);
+    run_callback(record, passed_ns);
     command(record, step, passed_ns);
     exchange(record, step);
     count_energy(record);
@@ -210,7 +210,7 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   record.wanted.force_N += record.contact.force_N;
 }
 
-void HapticLoop::ask_callback(TickRecord& record, int64_t passed_ns) noexcept {
+void HapticLoop::run_callback(TickRecord& record, int64_t passed_ns) noexcept {
   if (!callback_.is_set()) return;
   const GripReading& grip = grip_->reading();
   if (!grip.knows_pose() || closing_.load(std::memory_order_acquire)) return callback_.rest();

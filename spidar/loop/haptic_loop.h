@@ -165,7 +165,7 @@ class HapticLoop {
   void find_wanted(TickRecord& record) noexcept;
   void count_gap(const TickRecord& record) noexcept;
   void touch(TickRecord& record, int64_t passed_ns) noexcept;
-  void ask_callback(TickRecord& record, int64_t passed_ns) noexcept;
+  void run_callback(TickRecord& record, int64_t passed_ns) noexcept;
   bool is_fresh(const TickRecord& record) const noexcept;
   SafetyLimits braking_limits() const noexcept;
   void command(TickRecord& record, const Step& step, int64_t passed_ns) noexcept;

@@ -54,7 +54,7 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
     slow_in_a_row_ = 0;
     rest();
   }
-  Wrench wrench = ask(*called, input);
+  Wrench wrench = call_function(*called, input);
   // The safety chain refuses a wrench that is not finite.
   if (called->passive && wrench.is_finite()) {
     wrench = bounded(wrench, input, beside_N, path_of(limits, called->drive_lag_s));
@@ -63,7 +63,7 @@ Wrench WrenchCallback::call(const CallbackInput& input, const Eigen::Vector3d& b
   return wrench;
 }
 
-Wrench WrenchCallback::ask(const Called& called, const CallbackInput& input) noexcept {
+Wrench WrenchCallback::call_function(const Called& called, const CallbackInput& input) noexcept {
   const int64_t begin_ns = monotonic_now_ns();
   Wrench wrench;
   try {

@@ -73,7 +73,7 @@ class WrenchCallback {
     uint64_t number;  // 1 for the first
   };
 
-  Wrench ask(const Called& called, const CallbackInput& input) noexcept;
+  Wrench call_function(const Called& called, const CallbackInput& input) noexcept;
   Wrench bounded(const Wrench& wanted, const CallbackInput& input, const Eigen::Vector3d& beside_N,
                  const touch::ForcePath& path) noexcept;
   void stop(State why) noexcept;

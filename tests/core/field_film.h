@@ -26,10 +26,10 @@ inline PaddedImage padded(const Picture& picture) {
 
 /// After a cut.
 inline PreviousFrame nothing_before() {
-  static const std::vector<float> persistence;
+  static const std::vector<float> foreground;
   static const std::vector<uint8_t> burned_in;
   static const std::vector<uint32_t> objects;
-  return {persistence, burned_in, objects};
+  return {foreground, burned_in, objects};
 }
 
 /// A background that moves by so much in each frame, with noise of a standard deviation `noise_px`.

@@ -99,8 +99,8 @@ void BackgroundEstimator::weigh(const BackgroundVotes& votes) {
 }
 
 /// Removes all positions connected to `middle_px`, if together they are one object of any size.
-void BackgroundEstimator::take_connected_to(const Eigen::Vector2d& middle_px,
-                                            const Eigen::Vector2d& size_px) {
+void BackgroundEstimator::remove_connected_to(const Eigen::Vector2d& middle_px,
+                                              const Eigen::Vector2d& size_px) {
   const auto middle = std::find(positions_px_.begin(), positions_px_.end(), middle_px);
   std::iter_swap(positions_px_.begin(), middle);
   const Eigen::Array2d inner_px = size_px.array() / 2 - kBlock_px;
@@ -143,7 +143,7 @@ bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
       middle_px = positions_px_[i];
     }
     if (positions_px_.size() < most + kMinVotes) return false;
-    if (move_alike) take_connected_to(middle_px, size_px);
+    if (move_alike) remove_connected_to(middle_px, size_px);
     const auto is_its = [&](const Eigen::Vector2d& position_px) {
       return (position_px - middle_px).squaredNorm() <= radius_px2;
     };
@@ -165,7 +165,7 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
     positions_px_.push_back(vote.point.at_px);
   }
   scored.coverage = votes.all > 0 ? sum / votes.all : 0;
-  if (scored.model.kind == ModelKind::kStill || is_textured_ || votes.of_areas) return true;
+  if (scored.model.kind == ModelKind::kStill || is_textured_ || votes.of_coarse_blocks) return true;
   if (is_background(scored.model.kind, true, votes.size_px)) return true;
   if (!of_objects_ || scored.coverage > of_objects_->coverage) of_objects_ = scored;
   return false;
@@ -271,7 +271,7 @@ Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   const bool climbed = !is_explained(current.model) && climb(start, votes, current);
   if (!climbed && current.model.kind != ModelKind::kStill) descend(start, votes, current);
   if (!is_proven(current, votes)) return {MotionModel(), noise_px_, 0, false};
-  return {current.model, noise_px_, current.coverage, true, votes.of_areas};
+  return {current.model, noise_px_, current.coverage, true, votes.of_coarse_blocks};
 }
 
 }  // namespace spidar

@@ -41,7 +41,7 @@ struct BackgroundVotes {
   /// fade while the camera moves fast. Then the background must not count as plain and at rest.
   bool are_lost = false;
   /// Whether the votes are of coarse blocks, which are so large that no object has several.
-  bool of_areas = false;
+  bool of_coarse_blocks = false;
 
   /// Votes of all points together, without their weights.
   double sum() const;
@@ -113,7 +113,7 @@ class BackgroundEstimator {
   void weigh(const BackgroundVotes& votes);
   bool covers(Scored& scored, const BackgroundVotes& votes);
   bool is_background(ModelKind kind, bool move_alike, const Eigen::Vector2d& size_px);
-  void take_connected_to(const Eigen::Vector2d& middle_px, const Eigen::Vector2d& size_px);
+  void remove_connected_to(const Eigen::Vector2d& middle_px, const Eigen::Vector2d& size_px);
   bool is_proven(const Scored& chosen, const BackgroundVotes& votes);
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);

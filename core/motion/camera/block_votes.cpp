@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/field/areas.h"
+#include "core/field/coarse_blocks.h"
 
 namespace spidar {
 namespace {
@@ -21,12 +21,12 @@ constexpr double kBadResidual = 60;
 
 /// The weight of a vote rises with the structure that the block has in both directions, and falls
 /// with the residual of its motion; a block that moved by itself until now has half the weight.
-/// `texture_scale` is 1, or kAreaTextureScale.
-double weight_of(const MotionBlock& block, double texture_scale, float persistence) {
+/// `texture_scale` is 1, or kCoarseTextureScale.
+double weight_of(const MotionBlock& block, double texture_scale, float foreground) {
   const double texture = static_cast<double>(block.weakest_texture());
   return texture / (texture + texture_scale * kFullTexture) /
          (1 + static_cast<double>(block.residual) / kBadResidual) *
-         (1 - static_cast<double>(persistence) / 2);
+         (1 - static_cast<double>(foreground) / 2);
 }
 
 BackgroundVote vote_of(const MotionBlock& block, double weight, bool at_border, size_t source) {
@@ -68,8 +68,8 @@ void collect_blocks(const BlockField& field, const PreviousFrame& past, bool wit
     if (!may_vote(block, with_edges) || past.is_burned_in(i)) continue;
     if (votes.cast.size() >= kMaxDisplacements) continue;
     const double times = at_border && !is_at_rest(block) ? kBorderVotes : 1;
-    const float persistence = past.persistence_of(field.origin_of(i));
-    votes.cast.push_back(vote_of(block, times * weight_of(block, 1, persistence), at_border, i));
+    const float foreground = past.foreground_of(field.origin_of(i));
+    votes.cast.push_back(vote_of(block, times * weight_of(block, 1, foreground), at_border, i));
   }
 }
 
@@ -122,28 +122,28 @@ void collect_edges(const BlockField& field, const PreviousFrame& past, Backgroun
   votes.are_lost = is_new(field);
 }
 
-void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas,
-                   const PreviousFrame& past, BackgroundVotes& votes) {
+void collect_coarse_blocks(const BlockField& field, const std::vector<MotionBlock>& coarse,
+                           const PreviousFrame& past, BackgroundVotes& votes) {
   clear_votes(votes);
-  votes.of_areas = true;
+  votes.of_coarse_blocks = true;
   const Eigen::Vector2d picture_px(field.picture().width(), field.picture().height());
   const Eigen::Vector2d margin_px(past.margin_columns * kBlock_px, past.margin_rows * kBlock_px);
   votes.size_px = picture_px - 2 * margin_px;
   constexpr double kHalf_px = kCoarser * kBlock_px / 2;
-  for (const MotionBlock& area : areas) {
-    const Eigen::Vector2d from_middle_px = area.centre_px.cast<double>();
+  for (const MotionBlock& block : coarse) {
+    const Eigen::Vector2d from_middle_px = block.centre_px.cast<double>();
     const double inside_px = (votes.size_px / 2 - from_middle_px.cwiseAbs()).minCoeff() - kHalf_px;
     // A coarse block may reach over the film's border by a pixel of the coarse picture.
     if (inside_px < -kCoarser) continue;
     const bool at_border = inside_px < kBorderBlocks * kBlock_px;
     votes.all += at_border ? kBorderVotes : 1;
-    if (area.weakest_texture() < kAreaTextureScale * MotionBlock::kMinTexture) continue;
+    if (block.weakest_texture() < kCoarseTextureScale * MotionBlock::kMinTexture) continue;
     const Eigen::Vector2d centre_px = from_middle_px + picture_px / 2;
     const size_t middle = field.grid().block_at(centre_px);
     if (past.is_burned_in(middle) || blocks_have_corners(field, centre_px)) continue;
-    const double weight = weight_of(area, static_cast<double>(kAreaTextureScale),
-                                    past.persistence_of(field.origin_of(middle)));
-    votes.cast.push_back(vote_of(area, weight, at_border, middle));
+    const double weight = weight_of(block, static_cast<double>(kCoarseTextureScale),
+                                    past.foreground_of(field.origin_of(middle)));
+    votes.cast.push_back(vote_of(block, weight, at_border, middle));
   }
 }
 

@@ -14,14 +14,14 @@ namespace spidar {
 /// block, or none after a cut.
 struct PreviousFrame {
   /// The probability that the block was foreground, 0 … 1.
-  const std::vector<float>& persistence;
+  const std::vector<float>& foreground;
   const std::vector<uint8_t>& burned_in;  ///< 1: the block showed graphics
   const std::vector<uint32_t>& objects;   ///< the number of the block's object; 0: none
   /// Blocks of bars and frames around the film, on each side.
   int margin_columns = 0;
   int margin_rows = 0;
 
-  float persistence_of(size_t block) const { return persistence.empty() ? 0 : persistence[block]; }
+  float foreground_of(size_t block) const { return foreground.empty() ? 0 : foreground[block]; }
   uint32_t object_of(size_t block) const { return objects.empty() ? 0 : objects[block]; }
   bool is_burned_in(size_t block) const { return !burned_in.empty() && burned_in[block] != 0; }
 };
@@ -31,7 +31,7 @@ void collect_votes(const BlockField& field, const PreviousFrame& past, Backgroun
 /// Works like collect_votes(), but edges vote too, if together they have more than one direction:
 /// for pictures in which little else votes.
 void collect_edges(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
-void collect_areas(const BlockField& field, const std::vector<MotionBlock>& areas,
-                   const PreviousFrame& past, BackgroundVotes& votes);
+void collect_coarse_blocks(const BlockField& field, const std::vector<MotionBlock>& coarse,
+                           const PreviousFrame& past, BackgroundVotes& votes);
 
 }  // namespace spidar

@@ -33,7 +33,7 @@ void PlainParts::remember(const BlockField& field, const MotionModel& model) {
 }
 
 /// Finds the picture since which the models have moved the blocks furthest.
-void PlainParts::go_back(const BlockField& field, const MotionModel& model) {
+void PlainParts::find_furthest_picture(const BlockField& field, const MotionModel& model) {
   const std::vector<MotionBlock>& blocks = field.blocks();
   back_ = 0;
   double furthest_px = 0;  // Σ over the blocks
@@ -58,7 +58,7 @@ void PlainParts::go_back(const BlockField& field, const MotionModel& model) {
 
 bool PlainParts::have_moved(const BlockField& field, const PreviousFrame& past,
                             const MotionModel& model) {
-  go_back(field, model);
+  find_furthest_picture(field, model);
   const double size_px = field.picture().width() + field.picture().height();
   constexpr int kClearly = static_cast<int>(kRounding_grey * kBlockArea_px);
   int all = 0;
@@ -121,7 +121,7 @@ double models_apart_px(const MotionModel& a, const MotionModel& b, const Eigen::
 
 CameraChoice::CameraChoice() {
   votes_.cast.reserve(kMaxDisplacements);
-  area_votes_.cast.reserve(kMaxDisplacements);
+  coarse_votes_.cast.reserve(kMaxDisplacements);
   rival_votes_.cast.reserve(kMaxDisplacements);
   evidence_.points.reserve(kMaxDisplacements);
   evidence_.weights.reserve(kMaxDisplacements);
@@ -169,8 +169,8 @@ void CameraChoice::add_rivals(const BlockField& field, const PreviousFrame& past
     add_rival(chosen, rival_votes_,
               [&](const BackgroundVote& vote) { return !agrees(vote, first, sigma_px); });
   }
-  collect_areas(field, areas_.find(field), past, area_votes_);
-  add_rival(chosen, area_votes_, [](const BackgroundVote& vote) { return vote.at_border; });
+  collect_coarse_blocks(field, coarse_blocks_.find(field), past, coarse_votes_);
+  add_rival(chosen, coarse_votes_, [](const BackgroundVote& vote) { return vote.at_border; });
 }
 
 /// Returns the rival that explains clearly more of the border than the first choice; null when none
@@ -220,7 +220,7 @@ void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& pa
 }
 
 const Background& CameraChoice::find(const BlockField& field, const PreviousFrame& past) {
-  areas_.reserve(field);
+  coarse_blocks_.reserve(field);
   Background chosen = find_in_order(field, past);
   if (field.pictures_back() > 0) prefer_rival(field, past, chosen);
   plain_.remember(field, likely_);
@@ -234,14 +234,14 @@ Background CameraChoice::find_in_order(const BlockField& field, const PreviousFr
   likely_ = of_blocks.model;
   if (moves(of_blocks) || votes_.are_many()) return of_blocks;
 
-  collect_areas(field, areas_.find(field), past, area_votes_);
-  const Background of_areas =
-      area_votes_.are_few() ? Background() : estimator_.propose(area_votes_);
-  likely_ = of_areas.model;
-  if (moves(of_areas) && (plain_.have_moved(field, past, of_areas.model) ||
-                          border_has_moved(field, past, of_areas.model))) {
-    std::swap(votes_, area_votes_);
-    return of_areas;
+  collect_coarse_blocks(field, coarse_blocks_.find(field), past, coarse_votes_);
+  const Background of_coarse_blocks =
+      coarse_votes_.are_few() ? Background() : estimator_.propose(coarse_votes_);
+  likely_ = of_coarse_blocks.model;
+  if (moves(of_coarse_blocks) && (plain_.have_moved(field, past, of_coarse_blocks.model) ||
+                                  border_has_moved(field, past, of_coarse_blocks.model))) {
+    std::swap(votes_, coarse_votes_);
+    return of_coarse_blocks;
   }
   if (!are_few) return of_blocks;
 

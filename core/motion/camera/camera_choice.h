@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "core/field/areas.h"
+#include "core/field/coarse_blocks.h"
 #include "core/motion/camera/background.h"
 #include "core/motion/camera/block_votes.h"
 
@@ -24,7 +24,7 @@ class PlainParts {
   void reset() { models_.fill(MotionModel()); }
 
  private:
-  void go_back(const BlockField& field, const MotionModel& model);
+  void find_furthest_picture(const BlockField& field, const MotionModel& model);
 
   std::array<MotionModel, kMaxBack - 1> models_;  ///< of earlier pictures, the latest first
   std::vector<Eigen::Vector2d> moved_px_;         ///< of each block, since the compared picture
@@ -64,9 +64,9 @@ class CameraChoice {
   void add_rival(const Background& chosen, const BackgroundVotes& votes, Counts&& counts);
 
   BackgroundVotes votes_;  ///< for the last background
-  BackgroundVotes area_votes_;
+  BackgroundVotes coarse_votes_;
   BackgroundVotes rival_votes_;
-  Areas areas_;
+  CoarseBlocks coarse_blocks_;
   PlainParts plain_;
   /// The model that explains the picture best, chosen or not: over several pictures the plain parts
   /// may show what they do not show in one.

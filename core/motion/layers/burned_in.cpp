@@ -105,7 +105,7 @@ void Margins::Bars::begin(int width) {
   for (auto& positions : changed) std::fill(positions.begin(), positions.end(), uint8_t{0});
 }
 
-void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int across) {
+void Margins::update_bars(Bars& bars, const BlockField& field, bool are_columns, int across) {
   const Side first{field, are_columns, false, across};
   const Side last{field, are_columns, true, across};
   const int at_first = first.standing();
@@ -126,8 +126,8 @@ void Margins::look(Bars& bars, const BlockField& field, bool are_columns, int ac
 void Margins::update(const BlockField& field) {
   const int rows_before = rows();
   const int columns_before = columns();
-  look(rows_, field, false, columns());
-  look(columns_, field, true, rows());
+  update_bars(rows_, field, false, columns());
+  update_bars(columns_, field, true, rows());
   have_changed_ = rows() != rows_before || columns() != columns_before;
 }
 
@@ -185,7 +185,7 @@ bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
          stays(0, kBeside_px);
 }
 
-void BurnedIn::look(const BlockField& field, const Block& block) {
+void BurnedIn::classify(const BlockField& field, const Block& block) {
   if (!camera_moves_) return;
   const MotionBlock& own = field.blocks()[block.index];
   const float moved_px = std::hypot(own.moved_px.x(), own.moved_px.y());

@@ -52,7 +52,7 @@ class Margins {
     void begin(int width);
   };
 
-  static void look(Bars& bars, const BlockField& field, bool are_columns, int across);
+  static void update_bars(Bars& bars, const BlockField& field, bool are_columns, int across);
 
   Bars columns_;
   Bars rows_;
@@ -87,7 +87,7 @@ class BurnedIn {
   void begin(const BlockField& field, bool camera_moves);
 
   /// Examines a block of the pair. Call this for every block that seems to move independently.
-  void look(const BlockField& field, const Block& block);
+  void classify(const BlockField& field, const Block& block);
 
   /// Ends the pair. A block that stayed constant twice keeps its status for some further pairs, in
   /// which the digits of a clock may change, and makes unexplained blocks next to it count as

@@ -159,7 +159,7 @@ bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px) {
 }
 
 void MovingBlocks::reset() {
-  persistence_.clear();
+  foreground_.clear();
   stood_out_.clear();
   burned_in_.reset();
 }
@@ -222,8 +222,8 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   burned_in_.begin(field, !camera_is_still_);
   for (size_t i = 0; i < stands_out_.size(); ++i) {
     if (stands_out_[i] == 0) continue;
-    burned_in_.look(field, {i, relative_[i].background_px, moves_slowly(relative_[i]),
-                            is_expected(expected, i)});
+    burned_in_.classify(field, {i, relative_[i].background_px, moves_slowly(relative_[i]),
+                                is_expected(expected, i)});
   }
   burned_in_.end(field.grid());
   for (size_t i = 0; i < stands_out_.size(); ++i) {
@@ -233,7 +233,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   }
 }
 
-void MovingBlocks::ask_neighbours(const BlockGrid& grid) {
+void MovingBlocks::judge_with_neighbours(const BlockGrid& grid) {
   for (size_t i = 0; i < relative_.size(); ++i) {
     RelativeBlock& block = relative_[i];
     block.lasts = block.moves = false;
@@ -270,13 +270,13 @@ void MovingBlocks::remember_what_stood_out(const BlockField& field) {
 
 void MovingBlocks::remember_motion(const BlockField& field) {
   const size_t n = relative_.size();
-  persistence_before_.swap(persistence_);
-  if (persistence_before_.size() != n) persistence_before_.assign(n, 0);
-  persistence_.resize(n);
+  foreground_before_.swap(foreground_);
+  if (foreground_before_.size() != n) foreground_before_.assign(n, 0);
+  foreground_.resize(n);
   for (size_t i = 0; i < n; ++i) {
-    const float before = persistence_before_[field.origin_of(i)];
+    const float before = foreground_before_[field.origin_of(i)];
     const float now = relative_[i].moves ? 1.0f : 0.0f;
-    persistence_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
+    foreground_[i] = before + static_cast<float>(kNewestWeight) * (now - before);
   }
 }
 
@@ -294,7 +294,7 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
   }
   leave_out_burned_in(field, expected);
   remember_what_stood_out(field);
-  ask_neighbours(field.grid());
+  judge_with_neighbours(field.grid());
   if (!background.is_known) {
     for (RelativeBlock& block : relative_) block.moves = false;
   }

@@ -74,7 +74,7 @@ class MovingBlocks {
 
   /// The probability that each block is foreground, from the frames so far, 0 … 1. The values move
   /// along with the picture.
-  const std::vector<float>& persistence() const { return persistence_; }
+  const std::vector<float>& foreground() const { return foreground_; }
 
   /// Blocks with burned-in graphics or bars, which do not show the motion of camera or objects.
   const BurnedIn& burned_in() const { return burned_in_; }
@@ -95,14 +95,14 @@ class MovingBlocks {
   bool stands_out(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
                   bool expected) const;
   void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
-  void ask_neighbours(const BlockGrid& grid);
+  void judge_with_neighbours(const BlockGrid& grid);
   void remember_what_stood_out(const BlockField& field);
   void remember_motion(const BlockField& field);
 
   std::vector<RelativeBlock> relative_;
   std::vector<uint8_t> stands_out_;  ///< of each block, without its neighbours
-  std::vector<float> persistence_;
-  std::vector<float> persistence_before_;
+  std::vector<float> foreground_;
+  std::vector<float> foreground_before_;
   std::vector<StoodOut> stood_out_;
   std::vector<StoodOut> stood_out_before_;
   std::vector<Eigen::Vector2f> of_scene_px_;  ///< motion of the blocks of the scene

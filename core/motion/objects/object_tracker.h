@@ -188,7 +188,7 @@ class ObjectTracker {
   /// What the next frame's votes on the camera depend on.
   PreviousFrame past() const {
     const BurnedIn& burned_in = moving_.burned_in();
-    return {moving_.persistence(), burned_in.held(), owners_, burned_in.margins().columns(),
+    return {moving_.foreground(), burned_in.held(), owners_, burned_in.margins().columns(),
             burned_in.margins().rows()};
   }
   /// The number of the object to which each block belongs in the last frame; 0 for none.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// How areas of a picture out of focus move, and what its plain parts and its border show.
-#include "core/field/areas.h"
+// How the coarse blocks of a picture out of focus move, and what its plain parts and its border
+// show.
+#include "core/field/coarse_blocks.h"
 #include "core/motion/camera/border.h"
 #include "core/motion/camera/camera_choice.h"
 #include "tests/core/field_film.h"
 #include "tests/support/test.h"
 #include "tests/support/texture.h"
 
-namespace spidar::test::areas_test {
+namespace spidar::test::coarse_blocks_test {
 namespace {
 
 /// Of a wall out of focus, of which `stains` is the contrast, that has moved by `moved_px`; with
@@ -37,29 +38,29 @@ BlockField field_after(int pictures, double stains, const Eigen::Vector2d& pan_p
   return field;
 }
 
-TEST(Areas, MoveAsThePictureDoesWhereNoBlockShowsIt) {
+TEST(CoarseBlocks, MoveAsThePictureDoesWhereNoBlockShowsIt) {
   BlockField field = field_after(2, 0.4, kPan_px);
   size_t corners = 0;
   for (const MotionBlock& block : field.blocks()) corners += block.has_corners();
   ASSERT_LT(corners, field.blocks().size() / 20);
-  Areas areas;
-  const std::vector<MotionBlock>& found = areas.find(field);
+  CoarseBlocks coarse;
+  const std::vector<MotionBlock>& found = coarse.find(field);
   // Four by four blocks each, half overlapping.
   ASSERT_EQ(found.size(),
             static_cast<size_t>((field.grid().columns / 2 - 1) * (field.grid().rows / 2 - 1)));
   size_t right = 0;
-  for (const MotionBlock& area : found) {
+  for (const MotionBlock& block : found) {
     // A tenth of a pixel, as of blocks, but of the coarse picture.
-    right += (area.moved_px.cast<double>() - kPan_px).norm() < 0.1 * kCoarser;
+    right += (block.moved_px.cast<double>() - kPan_px).norm() < 0.1 * kCoarser;
   }
   // Those of the two borders that the picture leaves were not whole before.
   EXPECT_GT(right, found.size() * 3 / 4);
   field.stand_still();
-  EXPECT_TRUE(areas.find(field).empty());
+  EXPECT_TRUE(coarse.find(field).empty());
 }
 
-TEST(Areas, DoNotFollowWhatShowsItsOwnMotion) {
-  // A square that rests has four by four blocks; the areas around it contain some of them.
+TEST(CoarseBlocks, DoNotFollowWhatShowsItsOwnMotion) {
+  // A square that rests has four by four blocks; the coarse blocks around it contain some of them.
   const Texture texture(2, 6);
   BlockField field;
   constexpr int kSide_px = kCoarser * kBlock_px;
@@ -79,13 +80,13 @@ TEST(Areas, DoNotFollowWhatShowsItsOwnMotion) {
                                     Eigen::Vector2d(kFieldWidth, kFieldHeight) / 2;
   int partly = 0;
   int like_wall = 0;
-  Areas areas;
-  for (const MotionBlock& area : areas.find(field)) {
-    const Eigen::Vector2d beside_px = area.centre_px.cast<double>() - middle_px;
+  CoarseBlocks coarse;
+  for (const MotionBlock& block : coarse.find(field)) {
+    const Eigen::Vector2d beside_px = block.centre_px.cast<double>() - middle_px;
     const double apart_px = beside_px.cwiseAbs().maxCoeff();
     if (apart_px > kSide_px || apart_px < kSide_px / 2.0) continue;
     ++partly;
-    const Eigen::Vector2d moved_px = area.moved_px.cast<double>();
+    const Eigen::Vector2d moved_px = block.moved_px.cast<double>();
     like_wall += (moved_px - kPan_px).norm() < moved_px.norm();
   }
   ASSERT_GT(partly, 8);
@@ -137,7 +138,7 @@ TEST(Border, IsNotThatOfAnObject) {
     for (size_t i = 0; i < objects.size(); ++i) {
       objects[i] = grid.column(i) < columns && grid.row(i) < rows;
     }
-    const PreviousFrame past{nothing_before().persistence, nothing_before().burned_in, objects};
+    const PreviousFrame past{nothing_before().foreground, nothing_before().burned_in, objects};
     return border_has_moved(field, past, pan);
   };
   EXPECT_TRUE(has_moved_beside(grid.columns / 3, grid.rows / 3));
@@ -148,4 +149,4 @@ TEST(Border, IsNotThatOfAnObject) {
 }
 
 }  // namespace
-}  // namespace spidar::test::areas_test
+}  // namespace spidar::test::coarse_blocks_test

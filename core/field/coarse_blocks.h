@@ -13,7 +13,7 @@ namespace spidar {
 /// the coarse picture: in a picture out of focus, or of ice, no single block shows the motion.
 /// Blocks with corners are left out: their own motion is visible, and they may belong to an object
 /// in front of the wall whose motion is wanted. An empty coarse block has no structure.
-class Areas {
+class CoarseBlocks {
  public:
   /// Allocates what find() needs for pictures of this size, perhaps long after the first.
   void reserve(const BlockField& field);
@@ -22,15 +22,15 @@ class Areas {
   const std::vector<MotionBlock>& find(const BlockField& field);
 
  private:
-  void leave_out_corners(const BlockField& field);
+  void exclude_blocks_with_corners(const BlockField& field);
   BlockMatch best_match(const CoarseField& coarse, const Eigen::Vector2i& corner_px) const;
 
-  std::vector<MotionBlock> areas_;
+  std::vector<MotionBlock> blocks_;
   PaddedImage counted_;  ///< of the coarse picture: 255, and 0 in a block with corners
 };
 
 /// Factor of a limit of texture, in (grey / px)², for a coarse block: the noise of a pixel of the
 /// coarse picture is kCoarser times less than that of the field's.
-constexpr float kAreaTextureScale = 1.0f / (kCoarser * kCoarser);
+constexpr float kCoarseTextureScale = 1.0f / (kCoarser * kCoarser);
 
 }  // namespace spidar

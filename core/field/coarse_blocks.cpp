@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "core/field/areas.h"
+#include "core/field/coarse_blocks.h"
 
 #include <algorithm>
 
@@ -9,17 +9,17 @@ namespace {
 
 using Eigen::Vector2i;
 
-/// A coarse block with less than the area of a block counts as empty: px of the coarse picture.
+/// A coarse block with less than the block of a block counts as empty: px of the coarse picture.
 constexpr int kMinPixels = kBlockArea_px / (kCoarser * kCoarser);
 
 }  // namespace
 
-void Areas::reserve(const BlockField& field) {
-  areas_.reserve(field.blocks().size());
+void CoarseBlocks::reserve(const BlockField& field) {
+  blocks_.reserve(field.blocks().size());
   counted_.resize(field.coarse().now.width(), field.coarse().now.height());
 }
 
-void Areas::leave_out_corners(const BlockField& field) {
+void CoarseBlocks::exclude_blocks_with_corners(const BlockField& field) {
   const Vector2i size_px(counted_.width(), counted_.height());
   for (int y = 0; y < size_px.y(); ++y) {
     std::fill_n(counted_.row(y), size_px.x(), static_cast<uint8_t>(255));
@@ -41,7 +41,7 @@ void Areas::leave_out_corners(const BlockField& field) {
 
 /// The best match among rest and the motions of the blocks of the coarse field that this one
 /// overlaps or touches.
-BlockMatch Areas::best_match(const CoarseField& coarse, const Vector2i& corner_px) const {
+BlockMatch CoarseBlocks::best_match(const CoarseField& coarse, const Vector2i& corner_px) const {
   const BlockPixels here = pixels_at(coarse.now, corner_px);
   const BlockPixels counted = pixels_at(counted_, corner_px);
   const Vector2i last_px =
@@ -67,12 +67,12 @@ BlockMatch Areas::best_match(const CoarseField& coarse, const Vector2i& corner_p
   return best;
 }
 
-const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
-  areas_.clear();
+const std::vector<MotionBlock>& CoarseBlocks::find(const BlockField& field) {
+  blocks_.clear();
   const CoarseField& coarse = field.coarse();
-  if (field.pictures_back() == 0 || coarse.grid.size() == 0) return areas_;
+  if (field.pictures_back() == 0 || coarse.grid.size() == 0) return blocks_;
   reserve(field);
-  leave_out_corners(field);
+  exclude_blocks_with_corners(field);
   constexpr int kStep_px = kBlock_px / 2;
   const Vector2i size_px(coarse.now.width(), coarse.now.height());
   const Vector2i last_px = size_px - Vector2i::Constant(kBlock_px);
@@ -85,15 +85,15 @@ const std::vector<MotionBlock>& Areas::find(const BlockField& field) {
       const BlockSums sums = compare_blocks(pixels_at(coarse.now, corner_px),
                                             pixels_at(coarse.before, corner_px + match.from_px),
                                             pixels_at(counted_, corner_px));
-      MotionBlock area = refined_block(sums, coarse.now, corner_px, match,
-                                       MotionBlock::kRegularization * kAreaTextureScale);
-      if (sums.pixels < kMinPixels) area.structure.setZero();
-      area.moved_px *= kCoarser;
-      area.centre_px = kCoarser * area.centre_px + to_centre_px;
-      areas_.push_back(area);
+      MotionBlock block = refined_block(sums, coarse.now, corner_px, match,
+                                        MotionBlock::kRegularization * kCoarseTextureScale);
+      if (sums.pixels < kMinPixels) block.structure.setZero();
+      block.moved_px *= kCoarser;
+      block.centre_px = kCoarser * block.centre_px + to_centre_px;
+      blocks_.push_back(block);
     }
   }
-  return areas_;
+  return blocks_;
 }
 
 }  // namespace spidar
