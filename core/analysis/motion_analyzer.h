@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The analysis of a frame, from picture to wrench.
 #pragma once
 
 #include <cstdint>
@@ -19,11 +18,11 @@
 
 namespace spidar {
 
-/// Finds for each picture whether it repeats the previous one, how the camera and the objects move
-/// (MotionEstimator), which of these is felt, and with what wrench (ForceRenderer). For one thread
-/// at a time.
+/// The analysis of a frame, from picture to wrench: finds for each picture whether it repeats the
+/// previous one, how the camera and the objects move (MotionEstimator), which of these is felt, and
+/// with what wrench (ForceRenderer). For one thread at a time.
 ///
-/// A frame that shows the previous picture again does not show whether anything moves. It waits
+/// A frame that repeats the previous picture does not show whether anything moves. The frame waits
 /// (Likeness::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 class MotionAnalyzer {
@@ -32,18 +31,17 @@ class MotionAnalyzer {
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {})
       : settings_(settings), tracker_(settings.tracker), renderer_(settings) {}
 
-  /// Takes effect with the next frame. The points stay, and so does what the controller has learnt
+  /// Applies from the next frame on. The points stay, and so does the scale of the controller
   /// unless its law changes. Throws std::invalid_argument when a setting is out of range, and then
   /// changes nothing.
   void configure(const AnalyzerSettings& settings);
 
-  /// Frames must come in the order in which they are shown. A running time that does not rise
-  /// causes a restart, because the interval would not be positive. A cut in the picture or a new
-  /// size restarts points and filter only: the largest speed of eq. 13 and what the adaptive
-  /// controller has learnt belong to the whole video.
-  /// Throws std::invalid_argument for a frame that require_usable() refuses, or whose area it does.
-  /// The position in the film, and how the frame is turned before it is shown, are for
-  /// AnalyzerSettings::feel alone. The result is valid until the next call.
+  /// Frames must come in the order of display. A running time that does not rise causes a restart,
+  /// because the interval would not be positive. A cut in the picture or a new size restarts points
+  /// and filter only: the largest speed of eq. 13 and the scale of the adaptive controller belong
+  /// to the whole video. Throws std::invalid_argument for a frame that require_usable() refuses, or
+  /// whose area it does. The position in the film, and how the frame is turned before it is shown,
+  /// are for AnalyzerSettings::feel alone. The result is valid until the next call.
   const Frame& analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns = 0,
                        const Orientation& turn = {});
 
@@ -52,8 +50,8 @@ class MotionAnalyzer {
   /// picture is then at rest, and the next frame is not compared with it.
   const Frame* repeat(int64_t running_ns);
 
-  /// After a flush, a seek or a discontinuity: the next frame has no motion, and the controller
-  /// starts again.
+  /// Call this after a flush, a seek or a discontinuity: the next frame has no motion, and the
+  /// controller starts again.
   void reset();
 
  private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds what moves between successive frames.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,8 @@
 
 namespace spidar {
 
-/// Computes motion from frames and keeps what it needs of earlier frames. Does not allocate after
-/// the first frames of a size.
+/// Finds what moves between successive frames, and keeps what it needs of earlier frames. Does not
+/// allocate after the first frames of a size.
 class MotionEstimator {
  public:
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
@@ -28,7 +27,7 @@ class MotionEstimator {
   bool estimate(const ImageView& image, const ReducedFrame& reduced, MeasuredFrame& frame,
                 uint32_t felt = 0);
 
-  /// After a cut or a seek: the next frame is not compared with the previous one.
+  /// Call this after a cut or a seek: the next frame is not compared with the previous one.
   void reset();
 
  private:

@@ -9,30 +9,31 @@
 namespace spidar {
 namespace {
 
-/// How many lines of its place a patch is looked for in: lines of text are less far apart.
+/// How many lines from its place a patch is searched: lines of text are less far apart.
 constexpr int kDetailWithin_px = 32;
-/// How many of the patches that have changed are looked for. In a page whose films have half of
-/// the patches, one of 64 scrolled pictures has all of them in films.
+/// How many of the changed patches are searched. In a page whose films have half of the patches,
+/// one of 64 scrolled pictures has all of them in films.
 constexpr int kTries = 6;
-/// So many patches must have scrolled, less what a step takes out of a window of half the picture's
-/// height, in columns or rows with no other ones that have changed. Fewer may be an object before a
-/// plain wall, of which encoders make exact copies: a third of both sides touches 16.
+/// At least this many patches must have scrolled, minus those that a step takes out of a window of
+/// half the picture's height, in columns or rows where no other patches have changed. Fewer may be
+/// an object before a plain wall, of which encoders make exact copies: a third of both sides
+/// touches 16.
 constexpr int kMinScrolled = 20;
-/// The largest step, as a fraction of the height: by more, the analysis does not follow either, and
-/// takes the picture for a cut.
+/// The largest step, as a fraction of the height: the analysis does not follow a larger one either,
+/// and takes the picture for a cut.
 constexpr int kHeightsOfStep = 4;
 
-/// For so many pictures, what a page scrolls has rested before, or has scrolled. What a camera pans
-/// moves in other directions, too: between two of its pictures are up to five that repeat one, of a
-/// film of 24 a second on a screen of 144.
+/// In so many pictures, the content of a scrolling page has rested before, or has scrolled. The
+/// content of a panning camera moves in other directions, too: between two of its pictures are up
+/// to five repetitions, in a film of 24 a second on a screen of 144.
 constexpr int kRests = 6;
 
-/// Text that can be read has a contrast of 3:1 at least (WCAG 2.1, 1.4.3): from black on, 89 grey
-/// levels. What encoders leave around an object of which they make copies is below a third of that.
+/// Readable text has a contrast of at least 3:1 (WCAG 2.1, 1.4.3): from black on, 89 grey levels.
+/// The traces of encoders around copied objects are below a third of that.
 constexpr int kPlain_grey = 30;
 
-/// Whether the pixels of a patch's line differ by as much. Without that, every edge of two plain
-/// parts looks like every other.
+/// Whether the pixels of a patch's line differ by as much. Otherwise every edge of two plain parts
+/// would look like every other.
 bool varies(const uint8_t* line, const LumaSample& sample) {
   int least = 255, most = 0;
   for (int i = 0; i < PageScroll::kPatch_bytes; i += sample.bytes) {

@@ -177,7 +177,7 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   count_gap(record);
 }
 
-/// What follows the last frame of a film is no gap.
+/// The time after the last frame of a film is no gap.
 void HapticLoop::count_gap(const TickRecord& record) noexcept {
   if (record.playing && record.found == Found::kExpired) {
     ++gap_ticks_;
@@ -225,15 +225,15 @@ void HapticLoop::run_callback(TickRecord& record, int64_t passed_ns) noexcept {
   record.called_back = true;
 }
 
-/// A wrench is wanted, and may be exerted: limits of zero are a pause. After command() has found
-/// the state of this tick.
+/// Whether a wrench is wanted, and may be exerted: limits of zero are a pause. Call this after
+/// command() has found the state of this tick.
 bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
   return has_wanted(record) && grip_->reading().knows_pose() && state_ != DeviceState::kClosing &&
          (limits_.as_set().max_force_N > 0 || limits_.as_set().max_torque_Nm > 0);
 }
 
 /// Without any other force, the strings at rest throw a grip. Whatever the limits are, the damper
-/// may take back what they give.
+/// may take back the force of the strings.
 SafetyLimits HapticLoop::braking_limits() const noexcept {
   SafetyLimits limits = limits_.in_effect();
   const Wrench& at_rest = grip_->reading().at_rest;
@@ -257,7 +257,7 @@ void HapticLoop::command(TickRecord& record, const Step& step, int64_t passed_ns
   limit(record, step, passed_s);
 }
 
-/// After command() has found the state of this tick.
+/// Call this after command() has found the state of this tick.
 void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) noexcept {
   const bool fresh = is_fresh(record);
   const GripTraits& grip = grip_->traits();
@@ -297,7 +297,7 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   if (fault == LinkFault::kNone) {
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
-    // A device without an answer for longer is lost: then it was this program that stood still.
+    // A device without an answer for longer is lost: then this program was suspended.
     const double interval_s = std::min(step.falls_s, kMaxErrors * kTick_s);
     late_s_ +=
         fraction_passed(interval_s, kLateness_s) * (std::max(0.0, interval_s - kTick_s) - late_s_);
@@ -311,9 +311,9 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   if (is_lost(fault) || missing_.is_lost()) lose();
 }
 
-/// Neither a surface nor a passive callback asks for a torque: what is not the film's, the strings
-/// give for want of better ones. A surface takes hold as the force begins: that the strings do not
-/// give all of it yet makes it no softer than it is.
+/// Neither a surface nor a passive callback requests a torque: a torque beyond the film's is an
+/// error of the strings. A surface grips as the force begins: the strings do not exert the whole
+/// force yet, but that makes the surface no softer.
 void HapticLoop::count_energy(const TickRecord& record) noexcept {
   const Eigen::Vector3d turn_rad = GripMotion::turn_rad(at_, grip_->reading().pose);
   at_ = grip_->reading().pose;
@@ -324,13 +324,13 @@ void HapticLoop::count_energy(const TickRecord& record) noexcept {
   if (record.called_back) callback_.deliver(above_rest_, turn_rad);
 }
 
-/// Nobody needs to be protected from a stick that lets go of the hand. However late a tick is, the
-/// strings have pulled for as long.
+/// Nobody needs protection from a stick that leaves the hand. However late a tick is, the strings
+/// have pulled for as long.
 void HapticLoop::follow(double passed_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
-  // A hand does not turn a grip so far. Before its strings tangle and its pose is lost, the force
-  // is gone.
+  // A hand does not rotate a grip so far. The force is gone before its strings tangle and its pose
+  // is lost.
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
   brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);

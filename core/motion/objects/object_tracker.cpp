@@ -15,7 +15,7 @@ constexpr double kReach = 0.75;
 /// Fewer blocks are no region of an object yet, see is_enough().
 constexpr int kMinBlocks = 2;
 
-/// Fraction of its usual blocks that an object at rest still has where it was.
+/// The fraction of its usual blocks that an object at rest still has where it was.
 constexpr double kRemainingFraction = 0.5;
 
 }  // namespace
@@ -51,8 +51,8 @@ ObjectLife* ObjectTracker::owner_of(int16_t region) {
   return best;
 }
 
-/// The object out of sight that is expected nearest to the region with a similar motion, or that
-/// has bounced and may be there; null when there is none.
+/// The invisible object that is expected nearest to the region with a similar motion, or that has
+/// bounced and may be there; null when there is none.
 ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
   ObjectLife* best = nullptr;
   double nearest_px = 0;
@@ -80,9 +80,8 @@ uint32_t ObjectTracker::create(const Region& region) {
   return life.key;
 }
 
-/// How many of the blocks on which an object was before, and which now do not clearly move by
-/// themselves, are found in the picture before and are not plain; nothing unless they are most of
-/// its usual blocks.
+/// How many of the former blocks of an object, which now do not clearly move by themselves, are
+/// found in the picture before and are not plain; nothing unless they are most of its usual blocks.
 std::optional<int> ObjectTracker::resting_blocks(const ObjectLife& life,
                                                  const BlockField& field) const {
   int blocks = 0, found = 0;
@@ -96,8 +95,8 @@ std::optional<int> ObjectTracker::resting_blocks(const ObjectLife& life,
 }
 
 /// Whether a region is enough to show an object, `life` if that is not null. A single block is only
-/// enough for what is left of a known object, and for a new one if it lasts. Where most of a known
-/// object stands still beside it, it comes to rest: the block is its rim.
+/// enough for the rest of a known object, and for a new object if the block lasts. Where most of a
+/// known object stands still beside the block, the object comes to rest: the block is its rim.
 bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
                               const BlockField& field) const {
   if (region.blocks >= kMinBlocks) return true;
@@ -106,7 +105,7 @@ bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
   return !life->is_layer && !is_rim;
 }
 
-/// Assigns each region to an object. Of several regions of an object, the largest one counts.
+/// Assigns each region to an object. The largest of several regions of an object counts.
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_keys_.assign(regions.size(), 0);
@@ -167,7 +166,8 @@ ObjectMotion ObjectTracker::measure(ObjectLife& life, const FieldInFrame& frame)
   return found;
 }
 
-/// After the object that was turned to last, the next one that may be felt follows: keys rise.
+/// Chooses the next object that may be felt after the last one whose rotation was measured: keys
+/// rise.
 void ObjectTracker::choose_turned(uint32_t felt) {
   felt_key_ = 0;
   uint32_t first = 0, next = 0;
@@ -183,7 +183,8 @@ void ObjectTracker::choose_turned(uint32_t felt) {
   turned_key_ = next != 0 ? next : first;
 }
 
-/// How it turns and grows, unless it is not felt: what is not born yet, and layers of the scene.
+/// Measures rotation and growth, unless the object is not felt: it is not born yet, or is a layer
+/// of the scene.
 void ObjectTracker::turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame) {
   if (!life.is_born() || life.is_layer) return life.turn_unseen(frame.interval_s);
   if (life.key != felt_key_ && life.key != turned_key_) return;
@@ -215,8 +216,8 @@ double ObjectTracker::noise_around(const ObjectLife& life) {
   return parallax_.sigma_px(life.region.relative_px);
 }
 
-/// Whether something else is in the place of most of an object: what is visible is a rim, and most
-/// of its blocks are not found in the picture before. Their motions are those of errors.
+/// Whether something else is in the place of most of an object: the visible part is a rim, and most
+/// of its blocks are not found in the picture before. Their motions are errors.
 bool ObjectTracker::has_vanished(const ObjectLife& life, const FieldInFrame& frame) const {
   return life.is_rim(life.region) &&
          frame.field.are_lost([&](size_t block) { return owners_[block] == life.key; });
@@ -229,7 +230,7 @@ void ObjectTracker::observe(ObjectLife& life, const FieldInFrame& frame) {
                                             : life.region.relative_px / frame.interval_s;
   const bool is_new = life.blocks_seen == 0;
   if (is_new) life.velocity_px_s = velocity_px_s;
-  // What an error explains is smoothed away, which delays the rest by a frame or two.
+  // Smoothing removes motion that an error explains, which delays the rest by a frame or two.
   const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
   const double news_px = (velocity_px_s - life.velocity_px_s).norm() * frame.interval_s;
   const double both_px2 = news_px * news_px + error_px * error_px;
@@ -258,7 +259,6 @@ void ObjectTracker::observe(ObjectLife& life, const FieldInFrame& frame) {
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-/// The object rests where it is.
 void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
@@ -268,9 +268,9 @@ void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
   life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
-/// Nothing is known to move by itself at the object's position. If most of its usual blocks were
-/// there before, it has come to rest there. If only a rim was visible, it is out of sight and
-/// continues with its last motion.
+/// Handles a frame in which nothing is known to move by itself at the object's position. If most of
+/// its usual blocks were there before, the object has come to rest there. If only a rim was
+/// visible, the object is invisible and continues with its last motion.
 void ObjectTracker::miss(ObjectLife& life, const FieldInFrame& frame) {
   MovingObject& object = life.object;
   if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Follows objects that move relative to the background from frame to frame.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,7 @@
 
 namespace spidar {
 
-/// What is known of an object that is followed from frame to frame.
+/// The state of an object that is followed from frame to frame.
 struct ObjectLife {
   enum class State : uint8_t {
     kSeen,    ///< a region of this frame shows it
@@ -31,8 +30,8 @@ struct ObjectLife {
     kHidden,  ///< nothing shows it
   };
 
-  /// Position, motion and size in the last frame in which most of an object was visible. When only
-  /// a rim of it is left, the rim does not determine any of these.
+  /// Position, motion and size in the last frame in which most of an object was visible. A rim does
+  /// not determine any of these.
   struct Expected {
     double blocks = 0;  ///< when nothing hides it
     Eigen::Vector2d position_px = Eigen::Vector2d::Zero();
@@ -45,8 +44,8 @@ struct ObjectLife {
   static constexpr int kBornAfterBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
-  /// How long an object may be out of sight or at rest before it is dropped: longer than objects
-  /// are usually hidden, and than most pauses in their motion.
+  /// How long an object may be invisible or at rest before it is dropped: longer than objects are
+  /// usually hidden, and than most pauses in their motion.
   static constexpr double kForgotten_s = 0.5;
   /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
   /// with each frame of 25 a second, a tenth is left.
@@ -58,10 +57,10 @@ struct ObjectLife {
   Eigen::Vector2d velocity_px_s = Eigen::Vector2d::Zero();  ///< in the field, smoothed
   Expected expected;
   SteadyRate roll, growth;
-  /// Corners of the box that is drawn, in the field.
+  /// Corners of the drawn box, in the field.
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero(), high_px = Eigen::Vector2d::Zero();
   State state = State::kSeen;
-  double since_s = 0;  ///< for how long it has been at rest or hidden
+  double since_s = 0;  ///< how long it has been at rest or hidden
   LayerEvidence evidence;
   int blocks_seen = 0;     ///< in all frames together, see kBornAfterBlocks
   bool is_proven = false;  ///< it was clearly no layer of the scene in one of its frames
@@ -74,8 +73,8 @@ struct ObjectLife {
     state = next;
   }
 
-  /// Whether the region moves as the object did: like alike_px(), but with kMaxOff_px, the
-  /// largest error of a block's motion, in place of its noise.
+  /// Whether the region moves as the object did: like alike_px(), but with kMaxOff_px, the largest
+  /// error of a block's motion, in place of its noise.
   bool moves_like(const Region& other, double interval_s) const {
     const Eigen::Vector2d expected_px = velocity_px_s * interval_s;
     const double fastest_px = std::max(expected_px.norm(), other.relative_px.norm());
@@ -83,10 +82,11 @@ struct ObjectLife {
            kAlikeFraction * fastest_px + static_cast<double>(kMaxOff_px);
   }
   /// Whether the region may be the object after it has bounced. In the picture with the impact, and
-  /// often in the next, it moves unlike before and is out of sight. Afterwards it is no faster, and
-  /// not further away than it could get. The motion of errors and of layers changes like that, too.
-  /// So the object must be no layer, and have been seen for kKnown times as long as its birth took:
-  /// how likely errors move alike for so long is the kKnown-th power of how likely they are born.
+  /// often in the next, the object moves unlike before and is invisible. Afterwards it is no
+  /// faster, and not further away than it can have moved. The motion of errors and of layers
+  /// changes like that, too. So the object must be no layer, and have been seen for kKnown times as
+  /// long as its birth took: the probability that errors move alike for so long is the kKnown-th
+  /// power of that of their birth.
   bool has_bounced_to(const Region& other, double interval_s) const {
     constexpr int kKnown = 4;
     if (!is_proven || is_layer || blocks_seen < kKnown * kBornAfterBlocks) return false;
@@ -101,23 +101,22 @@ struct ObjectLife {
            (other.position_px - seen_at_px).norm() <
                speed_px_s * (since_s + interval_s) + kBlock_px;
   }
-  /// Whether the visible region is only a rim of the object.
   bool is_rim(const Region& visible) const {
     return visible.blocks < kRimFraction * expected.blocks;
   }
-  /// Whether it has just moved out of the picture, after having been in sight until now.
+  /// Whether the object has just moved out of the picture, and was visible until now.
   bool has_left(double interval_s) const {
     const Eigen::Vector2d on_screen_px = expected.velocity_px_s * interval_s + region.background_px;
     return region.border_blocks > 0 && region.position_px.dot(on_screen_px) > 0;
   }
-  /// The box to draw moves as the object does.
+  /// Moves the drawn box as the object moves.
   void move_box(double interval_s) {
     const Eigen::Vector2d moved_px = velocity_px_s * interval_s + region.background_px;
     low_px += moved_px;
     high_px += moved_px;
   }
-  /// Moves the box to draw towards the box around the blocks, and keeps it within a block of that
-  /// one, because this is how well blocks locate an edge.
+  /// Moves the drawn box towards the box around the blocks, and keeps it within a block of that
+  /// one, the precision with which blocks locate an edge.
   void draw_box_to(const Region& seen, double interval_s) {
     const double newest = interval_s / (kBoxSettles_s + interval_s);
     const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {
@@ -129,18 +128,18 @@ struct ObjectLife {
     draw(low_px, seen.low_px);
     draw(high_px, seen.high_px);
   }
-  /// For a frame in which nothing shows how the object turns and grows.
+  /// For a frame in which nothing shows how the object rotates and grows.
   void turn_unseen(double interval_s) {
     roll.miss(interval_s);
     growth.miss(interval_s);
     object.roll_rad_s = object.growth_1_s = 0;
   }
-  /// Moves the position at which it is expected on.
+  /// Advances the expected position.
   void go_on_unseen(double interval_s) {
     expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
   }
-  /// Remembers what is needed if it goes out of sight. Its usual number of blocks rises at once and
-  /// falls slowly.
+  /// Stores the state for a time when the object is invisible. Its usual number of blocks rises at
+  /// once and falls slowly.
   void expect(double interval_s) {
     const double blocks = region.blocks;
     const double forgotten = std::min(1.0, interval_s / kForgotten_s);
@@ -165,12 +164,12 @@ struct FieldInFrame {
   const std::vector<FineMotion>& fine;
 };
 
-/// Follows objects from frame to frame. A region that moves by itself becomes an object in the
-/// second frame in which its motion is similar. A region belongs to the object to which most of its
-/// blocks belonged before, or else to an object out of sight that is expected there, so that an
-/// object that passes behind another one keeps its id. While the motion of the background is
-/// unknown, all objects are out of sight. An object is dropped when it has been out of sight or at
-/// rest for kForgotten_s.
+/// Follows objects that move relative to the background from frame to frame. A region that moves by
+/// itself becomes an object in the second frame in which its motion is similar. A region belongs to
+/// the object to which most of its blocks belonged before, or else to an invisible object that is
+/// expected there, so that an object that passes behind another one keeps its id. While the motion
+/// of the background is unknown, all objects are invisible. An object is dropped when it has been
+/// invisible or at rest for kForgotten_s.
 class ObjectTracker {
  public:
   ObjectTracker();
@@ -179,13 +178,13 @@ class ObjectTracker {
   /// a result, so that their number identifies the next one. `background` is in pixels of the
   /// field's picture.
   ///
-  /// How an object turns and grows is measured in each frame for the one that is `felt`, an id or
-  /// 0, and for one of the others, by turns: what is known of the rest of them stays. This bounds
-  /// the time for a frame.
+  /// How an object rotates and grows is measured in each frame for the one that is `felt`, an id or
+  /// 0, and for one of the others, by turns: the values of the rest stay. This bounds the time for
+  /// a frame.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background,
                                           uint32_t felt = 0);
 
-  /// What the next frame's votes on the camera depend on.
+  /// The evidence for the next frame's votes on the camera.
   PreviousFrame past() const {
     const BurnedIn& burned_in = moving_.burned_in();
     return {moving_.foreground(), burned_in.held(), owners_, burned_in.margins().columns(),
@@ -194,14 +193,13 @@ class ObjectTracker {
   /// The number of the object to which each block belongs in the last frame; 0 for none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
-  /// Whether a block moved by itself in the last frame.
   bool moves(size_t block) const { return (*relative_)[block].moves; }
   /// Whether a block was used to measure the motion of an object in the last frame.
   bool is_measured(size_t block) const {
     return block < owners_.size() && owners_[block] != 0 && (*relative_)[block].shows_motion;
   }
 
-  /// Forgets everything, after a cut or a seek.
+  /// Call this after a cut or a seek.
   void reset();
 
   static constexpr double kForgotten_s = ObjectLife::kForgotten_s;
@@ -244,7 +242,7 @@ class ObjectTracker {
   Parallax parallax_;
   std::vector<ObjectLife> lives_;
   std::vector<MovingObject> objects_;
-  uint32_t felt_key_ = 0, turned_key_ = 0;  ///< of which the turn is measured; 0: none
+  uint32_t felt_key_ = 0, turned_key_ = 0;  ///< objects whose rotation is measured; 0: none
   uint32_t next_key_ = 1;
   uint32_t next_id_ = 1;
 };
