@@ -71,7 +71,7 @@ TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
   for (uint32_t n = 1; n < 40; ++n) {
     const bool again = n % 2 == 1;  // on twos
     const Picture now = moved(4.0 * (n / 2), n + 1);
-    const Kind kind = repeated.look(before.view(), now.view());
+    const Kind kind = repeated.compare(before.view(), now.view());
     if (n > 6) {
       EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
     }
@@ -95,7 +95,8 @@ TEST(RepeatedPicture, HardlyAnyNoiseIsTheSamePictureAtOnce) {
     } else {
       large = change;
     }
-    EXPECT_EQ(repeated.look(before.view(), now.view()), again ? Kind::kAlike : Kind::kOther) << n;
+    EXPECT_EQ(repeated.compare(before.view(), now.view()), again ? Kind::kAlike : Kind::kOther)
+        << n;
     before = now;
   }
 }
@@ -111,7 +112,7 @@ TEST(RepeatedPicture, ASwingThatTurnsBetweenTwoPicturesIsNoRepeat) {
     const float change = largest_change(before.view(), now.view());
     if (n > 1) least = std::min(least, change / large);
     large = change;
-    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
+    EXPECT_EQ(repeated.compare(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
   EXPECT_LT(least, 0.1F);
@@ -123,7 +124,7 @@ std::vector<Kind> after_a_cut(double step_px, bool on_twos, uint32_t grey) {
   RepeatedPicture repeated;
   Picture before = moved(0, 1, grey);
   const auto look = [&](const Picture& now) {
-    const Kind kind = repeated.look(before.view(), now.view());
+    const Kind kind = repeated.compare(before.view(), now.view());
     if (kind == Kind::kOther) before = now;
     return kind;
   };
@@ -159,7 +160,7 @@ TEST(RepeatedPicture, AMotionThatReversesIsNoRepeat) {
     const double speed = 4 - std::abs(static_cast<double>(n % 16) - 8);  // −4 … 4 px a frame
     position += speed;
     const Picture now = moved(position, n + 1);
-    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
+    EXPECT_EQ(repeated.compare(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
 }
@@ -186,7 +187,7 @@ TEST(RepeatedPicture, NoiseMayBeLargerWhereARepeatIsDue) {
     } else {
       large = change;
     }
-    const Kind kind = repeated.look(before.view(), now.view());
+    const Kind kind = repeated.compare(before.view(), now.view());
     if (n > RepeatedPicture::kFrames) {
       EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
     }
@@ -203,7 +204,7 @@ TEST(RepeatedPicture, TheSameNoiseOutOfRhythmIsAnotherPicture) {
     const bool stands = n == 9 || n == 22 || n == 28 || n == 43;
     if (!stands) position += 4;
     const Picture now = moved(position, n + 1, 5);
-    EXPECT_EQ(repeated.look(before.view(), now.view()), Kind::kOther) << n;
+    EXPECT_EQ(repeated.compare(before.view(), now.view()), Kind::kOther) << n;
     before = now;
   }
 }
@@ -231,7 +232,7 @@ TEST(RepeatedPicture, LittleNoiseIsTheSamePictureOutOfRhythmToo) {
     } else {
       large = change;
     }
-    const Kind kind = repeated.look(before.view(), now.view());
+    const Kind kind = repeated.compare(before.view(), now.view());
     if (stood > RepeatedPicture::kMinDips) {
       EXPECT_EQ(kind, stands ? Kind::kAlike : Kind::kOther) << n;
     }
