@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The constants of GripBrake. The unit is in the name. The source is physics, or a simulation: the
-/// random films of test_released_films.cpp, its searched ones, or the hands of
+/// The constants of GripBrake, with units in their names. Each source is physics, or a simulation:
+/// the random films of test_released_films.cpp, its searched ones, or the hands of
 /// test_released_grip.cpp; with another value, they show what is stated.
 #pragma once
 
@@ -36,8 +36,8 @@ constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick, ha
 
 // --- From the whole wrench to none, and back
 constexpr double kRelease_s = 0.01;  // full force at the slew limit, 3 N by 300 N/s
-constexpr double kRest_s = 1.0;      // a released grip swings out, see ItsForceRestsAndReturns
-constexpr double kReturn_s = 1.0;    // slow enough that an unheld grip gives itself away
+constexpr double kRest_s = 1.0;      // a released grip stops swinging, see ItsForceRestsAndReturns
+constexpr double kReturn_s = 1.0;    // slow enough that an unheld grip shows itself
 constexpr double kEases_s = 0.1;     // with kRelease_s, strings throw a grip that they balance
 
 // --- A grip that moves as the strings alone would move it

@@ -18,13 +18,13 @@ using namespace brake;
 /// The cosine of such an error of the direction is 0.88.
 constexpr double kAimed_rad = 0.5;
 
-/// What is left of a force at `speed_m_s`.
+/// The fraction of a force that the band leaves at `speed_m_s`.
 double left_at(double speed_m_s, const FadeBand& band) {
   return std::clamp((band.to_m_s - speed_m_s) / (band.to_m_s - band.from_m_s), 0.0, 1.0);
 }
 
 /// Reduces the component of `vector` along `velocity` to the fraction that the speed leaves. The
-/// speed of a turn is that of the end of an arm of `arm_m`; for a displacement, `arm_m` is 1.
+/// speed of a rotation is that of the end of an arm of `arm_m`; for a displacement, `arm_m` is 1.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double arm_m,
                       const FadeBand& band) {
   const double size = velocity.norm();
@@ -44,8 +44,8 @@ Eigen::Vector3d damped(const Eigen::Vector3d& velocity, double arm_m, const Fade
   return -damping * above_m_s / speed_m_s * velocity;
 }
 
-/// What is left of a wrench until which acts the grip turns by `turn_rad`. Strings that are pulled
-/// for another pose give another wrench: they accelerated a grip at 300 rad/s instead of braking
+/// The rest of a wrench until which acts the grip rotates by `turn_rad`. Strings that are pulled
+/// for another pose exert another wrench: they accelerated a grip at 300 rad/s instead of braking
 /// it.
 double aimed_at(double turn_rad) {
   return std::clamp(2 - turn_rad / kAimed_rad, 0.0, 1.0);
@@ -71,7 +71,7 @@ void GripBrake::reset() noexcept {
 }
 
 void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept {
-  // What was commanded before acts until now.
+  // The previous command acts until now.
   acting_N_ += fraction_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
   unheld_.pull(acting_N_, dt_s);
   strings_N_ = strings.force_N;
@@ -85,10 +85,10 @@ void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion,
   if (resting_s_ > 0) yield_.begin();
   yield_.see(position_m, velocity_m_s, strings_N_, rest_N_, is_whole(), dt_s);
   unheld_.see(velocity_m_s, dt_s);
-  // A grip that turns to and fro is slow twice in each turn.
+  // A grip that rotates to and fro is slow twice in each period.
   const bool is_fast = turn_rad_s.norm() > kFastest_rad_s;
   spun_s_ = std::clamp(spun_s_ + (is_fast ? dt_s : -dt_s / 2), 0.0, kSpins_s);
-  // No grip that nobody holds has more energy than the heaviest at its speed.
+  // No unheld grip has more energy than the heaviest at its speed.
   const double speed_m_s =
       kSpeedError_m_s + std::max(velocity_m_s.norm(), ahead_.linear_m_s.norm());
   work_J_ = std::clamp(work_J_ + dt_s * acting_N_.dot(velocity_m_s), 0.0,
@@ -115,15 +115,15 @@ void GripBrake::rest_or_return(const GripMotion& motion, double dt_s) noexcept {
   fraction_ = std::clamp(fraction_ + step, 0.0, 1.0);
 }
 
-/// A grip that is let go counts as held until it has moved far enough to show that it is not, but
-/// the energy that it may have does not wait for that.
+/// A released grip counts as held until it has moved far enough to show its release, but the energy
+/// that it may have does not wait for that.
 bool GripBrake::withstands_at(double speed_m_s) const noexcept {
   return yield_.is_withstood() && speed_m_s <= kHeavyFrom_m_s;
 }
 
-/// 0 … 1: how far the speeds of the FadeBand are those of a heavy grip. They are lower for one that
-/// is heavy or in a hand, to which the strings have given more energy than a light one has at these
-/// speeds; and for one in a hand that swings back after a film has pushed it aside.
+/// 0 … 1: how far the speeds of the FadeBand are those of a heavy grip. They are lower for a grip
+/// that is heavy or in a hand, to which the strings have given more energy than a light one has at
+/// these speeds; and for one in a hand that swings back after a film has pushed it aside.
 double GripBrake::heaviness() const noexcept {
   const double of_work = (work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J);
   const double of_swing = (yield_.swung_J() - kLightSwing_J) / (kHeavySwing_J - kLightSwing_J);
@@ -131,9 +131,9 @@ double GripBrake::heaviness() const noexcept {
 }
 
 /// The mass that is damped: twice the energy that the strings have given, divided by the square of
-/// the speed. None while they have given less than the lightest grip has at this speed: a hand then
-/// moves the grip, and must not feel the damper; or a loose hand throws it, which gives back what
-/// it has stored, but does not hold the grip.
+/// the speed. The mass is zero while they have given less than the lightest grip has at this speed:
+/// a hand then moves the grip, and must not feel the damper; or a loose hand throws it, which
+/// returns stored energy, but does not hold the grip.
 double GripBrake::damped_kg(double speed_m_s) const noexcept {
   const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
                                     kLightestGrip_kg, kHeaviestGrip_kg);
@@ -144,7 +144,7 @@ double GripBrake::damped_kg(double speed_m_s) const noexcept {
 }
 
 /// For a grip that has stored energy, the speeds are lower by kEarlier_m_s, because that energy
-/// adds to the work of a reversed force. The most that the turn may have is subtracted from
+/// adds to the work of a reversed force. The largest energy of the rotation is subtracted from
 /// kReleased_J, and the speeds are lower accordingly. So is, until a hand has withstood a force,
 /// and above kHeavyFrom_m_s, the energy that the strings at rest have stored: otherwise a film
 /// would push a heavy grip to where no string can brake it, and the strings at rest would throw it
@@ -168,7 +168,7 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   const double arm_m = body_.surface_m;
   damper_ = {damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
              damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
-  // The strings cannot do both: the tension that a torque takes is missing for the linear damper.
+  // The strings cannot exert both: the linear damper lacks the tension of a torque.
   allowed_ = {faded(fraction_ * wanted.force_N, ahead_.linear_m_s, 1, band_),
               left_at(ahead_.linear_m_s.norm(), band_) *
                   faded(fraction_ * wanted.torque_Nm, ahead_.angular_rad_s, arm_m, band_)};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Slows down a grip that nobody holds.
 #pragma once
 
 #include <Eigen/Core>
@@ -44,30 +43,29 @@ class GripBrake {
  public:
   GripBrake(const GripBody& body, double drive_lag_s) : body_(body), drive_lag_s_(drive_lag_s) {}
 
-  /// The pose is not known, or the device was opened: forgets the motion. A grip that was released
-  /// stays so until kRest_s after its pose is known again.
+  /// Clears the motion, because the pose is unknown or the device was opened. A released grip stays
+  /// released until kRest_s after its pose is known again.
   void reset() noexcept;
-  /// Nobody holds the grip.
+  /// Tells that nobody holds the grip.
   void release() noexcept { resting_s_ = brake::kRest_s; }
 
-  // In each tick, in this order:
+  // Call these in each tick, in this order:
 
   /// Returns what the brake leaves of the wanted wrench.
   Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
-  /// Whether cut() and damper() may change anything.
   bool acts() const noexcept;
   /// Returns what the brake leaves of `slewed`, which follows the result of the last apply() at the
-  /// slew limit: along the motion, no more than that result. If not `fresh`, `slewed` is on its way
-  /// to rest, and all of it fades.
+  /// slew limit: along the motion, no more than that result. If not `fresh`, `slewed` is ramping to
+  /// zero, and all of it fades.
   Wrench cut(const Wrench& slewed, bool fresh) const noexcept;
-  /// The wrench that slows the grip down, to be added to the result of cut().
+  /// The wrench that slows the grip down, to add to the result of cut().
   const Wrench& damper() const noexcept { return damper_; }
   /// Takes position and motion after an exchange, `dt_s` after the last call, and the energy that
   /// the strings at rest have stored there.
   void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
            double dt_s) noexcept;
-  /// Takes the wrench that the strings are to exert until the next exchange, and the part of it
-  /// that they exert at rest.
+  /// Takes the wrench that the strings exert until the next exchange, and the part of it that they
+  /// exert at rest.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
@@ -86,22 +84,22 @@ class GripBrake {
 
   const GripBody body_;
   const double drive_lag_s_;
-  // What the strings do.
+  // The strings.
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded
   Eigen::Vector3d rest_N_ = Eigen::Vector3d::Zero();  ///< the part of it that strings at rest exert
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();  ///< after the drive's lag
-  double stored_J_ = 0;                                 ///< what the strings at rest give back
-  double work_J_ = 0;  ///< what the strings have given the grip since it was last at rest
-  // What the grip does.
+  double stored_J_ = 0;  ///< energy that the strings at rest can return
+  double work_J_ = 0;    ///< work of the strings on the grip since it was last at rest
+  // The grip.
   brake::UnheldMotion unheld_;
   brake::GripYield yield_;
-  double spun_s_ = 0;  ///< for how long it has turned faster than a hand
+  double spun_s_ = 0;  ///< for how long it has rotated faster than a hand
   // Of the last apply().
   GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
   FadeBand band_;
   Wrench allowed_;
   Wrench damper_;
-  double fraction_ = 1;   ///< of the wanted wrench that is passed on
+  double fraction_ = 1;   ///< of the wanted wrench that passes
   double resting_s_ = 0;  ///< time until the wrench begins to return
 };
 

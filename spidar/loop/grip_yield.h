@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Tells a hand that withstands a force from a grip that gives way to it.
 #pragma once
 
 #include <algorithm>
@@ -12,19 +11,21 @@
 
 namespace spidar::brake {
 
-/// Compares where the grip has gone with the force on it, both smoothed, since begin().
+/// Distinguishes a hand that withstands a force from a grip that yields. Compares the displacement
+/// of the grip with the force on it, both smoothed, since begin().
 ///
-/// A grip that yields further than a hand lets it follows the force slowly, so that its speed does
-/// not give it away, and stores energy in what holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g
+/// A grip that yields further than a hand lets it follows the force so slowly that its speed does
+/// not show it, and stores energy in whatever holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g
 /// at 2 m/s when a film reverses its force. Where the strings at rest balance the force, these
 /// store it.
 class GripYield {
  public:
-  /// The force begins anew, with the grip where the next see() finds it.
+  /// Begins anew, with the grip at the position of the next see().
   void begin() noexcept { has_begun_ = is_balanced_ = false; }
 
   /// Takes position and velocity of the grip, `dt_s` after the last call; the force of the strings,
-  /// and the part `rest_N` of it that they exert at rest. `is_whole`: the brake withholds nothing.
+  /// and the part `rest_N` of it that they exert at rest. `is_whole` says that the brake withholds
+  /// nothing.
   void see(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
            const Eigen::Vector3d& strings_N, const Eigen::Vector3d& rest_N, bool is_whole,
            double dt_s) noexcept {
@@ -47,8 +48,8 @@ class GripYield {
   /// Whether a hand has proved itself: it has withstood the film for kWithstands_s.
   bool is_withstood() const noexcept { return withstood_s_ >= kWithstands_s; }
 
-  /// Whether the grip has yielded, which nobody's does who holds it. While the whole wrench passes,
-  /// only a grip that moves fast along the force counts.
+  /// Whether the grip has yielded, as no held grip does. While the whole wrench passes, only a grip
+  /// that moves fast along the force counts.
   bool yields(const Eigen::Vector3d& velocity_m_s, bool is_whole) const noexcept {
     if (!has_yielded(is_whole)) return false;
     if (!is_whole) return true;
@@ -57,11 +58,11 @@ class GripYield {
            velocity_m_s.dot(pulled_N_) > kAligned * speed_m_s * pulled_N_.norm();
   }
 
-  /// Whether the strings at rest balance the force, and store enough to throw the grip.
+  /// Whether the strings at rest balance the force, and store enough energy to throw the grip.
   bool is_balanced() const noexcept { return is_balanced_; }
-  /// Whether the grip may have stored energy that is given back with the film's next force.
+  /// Whether the grip may have stored energy that returns with the film's next force.
   bool stores_energy() const noexcept { return stores_s_ > 0; }
-  /// What a hand that gave way to the film gives back, fading.
+  /// The energy that a hand that yielded to the film returns, fading.
   double swung_J() const noexcept { return swung_J_; }
 
  private:
@@ -84,13 +85,14 @@ class GripYield {
     const double along_m = pulled_N_.dot(moved_m) / force_N;
     return along_m >= kMinYield_m && kLooseHand_N_m * along_m >= force_N;
   }
-  /// While the whole wrench passes, it must also have gone far, and no hand has withstood a force.
+  /// While the whole wrench passes, the grip must also have moved far, and no hand has withstood a
+  /// force.
   bool has_yielded(bool is_whole) const noexcept {
     return is_loose(gone_m_) && (!is_whole || (!is_withstood() && gone_m_.norm() > kThrown_m));
   }
-  /// What springs store depends on where the grip is: at 0.5 m/s, the smoothed displacement lags by
-  /// 25 mm. To what a loose hand stores, the strings add what pulls the grip back to where they
-  /// rest.
+  /// The energy in springs depends on the position of the grip: at 0.5 m/s, the smoothed
+  /// displacement lags by 25 mm. The strings add the pull to their rest position to the energy of a
+  /// loose hand.
   bool stores_at(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& rest_N) const noexcept {
     if (is_withstood() || !is_loose(moved_m)) return false;
     const double twice_J = kLooseHand_N_m * moved_m.squaredNorm() - rest_N.dot(moved_m);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Recognises a grip that moves as the strings alone would move it.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,18 +9,19 @@
 
 namespace spidar::brake {
 
-/// Compares how the velocity of the grip has changed in the last kMemory_s with how the strings
-/// would have changed that of a grip of kUnheldGrip_kg in no hand.
+/// Recognises a grip that moves as the strings alone would move it. Compares the change of its
+/// velocity in the last kMemory_s with the change that the strings would have caused in a grip of
+/// kUnheldGrip_kg in no hand.
 class UnheldMotion {
  public:
   void reset() noexcept { *this = {}; }
-  /// The strings have exerted `acting_N` for `dt_s`.
+  /// Tells that the strings have exerted `acting_N` for `dt_s`.
   void pull(const Eigen::Vector3d& acting_N, double dt_s) noexcept {
     late_N_ += fraction_passed(dt_s, GripMotion::kLag_s) * (acting_N - late_N_);
     given_m_s_ += dt_s / kUnheldGrip_kg * late_N_;
     given_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   }
-  /// The grip has this velocity, `dt_s` after the last one.
+  /// Takes the velocity of the grip, `dt_s` after the last one.
   void see(const Eigen::Vector3d& velocity_m_s, double dt_s) noexcept {
     seen_m_s_ += velocity_m_s - last_m_s_;
     seen_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
@@ -36,7 +36,8 @@ class UnheldMotion {
   }
 
  private:
-  Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();     ///< what acts, as late as the velocity is
+  /// The acting force, as late as the velocity is.
+  Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();  ///< by the strings
   Eigen::Vector3d seen_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_m_s_ = Eigen::Vector3d::Zero();
