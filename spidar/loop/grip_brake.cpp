@@ -78,13 +78,13 @@ void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) 
   rest_N_ = at_rest.force_N;
 }
 
-void GripBrake::see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
-                    double dt_s) noexcept {
+void GripBrake::update(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
+                       double dt_s) noexcept {
   const auto& [velocity_m_s, turn_rad_s] = motion.velocity();
   stored_J_ = stored_J;
   if (resting_s_ > 0) yield_.begin();
-  yield_.see(position_m, velocity_m_s, strings_N_, rest_N_, is_whole(), dt_s);
-  unheld_.see(velocity_m_s, dt_s);
+  yield_.update(position_m, velocity_m_s, strings_N_, rest_N_, is_whole(), dt_s);
+  unheld_.update(velocity_m_s, dt_s);
   // A grip that rotates to and fro is slow twice in each period.
   const bool is_fast = turn_rad_s.norm() > kFastest_rad_s;
   spun_s_ = std::clamp(spun_s_ + (is_fast ? dt_s : -dt_s / 2), 0.0, kSpins_s);

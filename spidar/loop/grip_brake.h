@@ -62,8 +62,8 @@ class GripBrake {
   const Wrench& damper() const noexcept { return damper_; }
   /// Takes position and motion after an exchange, `dt_s` after the last call, and the energy that
   /// the strings at rest have stored there.
-  void see(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
-           double dt_s) noexcept;
+  void update(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
+              double dt_s) noexcept;
   /// Takes the wrench that the strings exert until the next exchange, and the part of it that they
   /// exert at rest.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;

@@ -20,15 +20,15 @@ namespace spidar::brake {
 /// store it.
 class GripYield {
  public:
-  /// Begins anew, with the grip at the position of the next see().
+  /// Begins anew, with the grip at the position of the next update().
   void begin() noexcept { has_begun_ = is_balanced_ = false; }
 
   /// Takes position and velocity of the grip, `dt_s` after the last call; the force of the strings,
   /// and the part `rest_N` of it that they exert at rest. `is_whole` says that the brake withholds
   /// nothing.
-  void see(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
-           const Eigen::Vector3d& strings_N, const Eigen::Vector3d& rest_N, bool is_whole,
-           double dt_s) noexcept {
+  void update(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
+              const Eigen::Vector3d& strings_N, const Eigen::Vector3d& rest_N, bool is_whole,
+              double dt_s) noexcept {
     if (!has_begun_) begin_at(position_m);
     const double fraction = fraction_passed(dt_s, kYieldTime_s);
     const Eigen::Vector3d moved_m = position_m - from_m_;

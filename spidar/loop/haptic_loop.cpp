@@ -333,7 +333,7 @@ void HapticLoop::follow(double passed_s) noexcept {
   // is lost.
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
-  brake_.see(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
+  brake_.update(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
   brake_.pull(grip.delivered, grip.at_rest, passed_s);
 }
 

@@ -22,7 +22,7 @@ class UnheldMotion {
     given_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   }
   /// Takes the velocity of the grip, `dt_s` after the last one.
-  void see(const Eigen::Vector3d& velocity_m_s, double dt_s) noexcept {
+  void update(const Eigen::Vector3d& velocity_m_s, double dt_s) noexcept {
     seen_m_s_ += velocity_m_s - last_m_s_;
     seen_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
     last_m_s_ = velocity_m_s;

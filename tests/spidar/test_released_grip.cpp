@@ -258,14 +258,14 @@ TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
   GripBrake brake(GripBody::inferred(0.03), 0);
   const auto is_held_after = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
-      brake.see(Eigen::Vector3d::Zero(), spins, 0, 1e-3);
+      brake.update(Eigen::Vector3d::Zero(), spins, 0, 1e-3);
       brake.apply({}, spins, 1e-3);
     }
     return brake.held();
   };
   // What counts is forgotten in twice its time.
   const auto rest = [&] {
-    for (int i = 0; i < 20; ++i) brake.see(Eigen::Vector3d::Zero(), {}, 0, 1e-3);
+    for (int i = 0; i < 20; ++i) brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-3);
   };
   EXPECT_TRUE(is_held_after(9));
   rest();
@@ -283,7 +283,7 @@ TEST(GripBrake, ALongSpinRestsNoLongerThanAShortOne) {
   GripBrake brake(GripBody::inferred(0.03), 0);
   const auto run = [&](const GripMotion& motion, double seconds) {
     for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
-      brake.see(Eigen::Vector3d::Zero(), motion, 0, 1e-3);
+      brake.update(Eigen::Vector3d::Zero(), motion, 0, 1e-3);
       brake.apply({}, motion, 1e-3);
     }
   };
@@ -318,7 +318,7 @@ TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
       pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
       motion.update(pose, i * kTick_ns);
       // No force has moved it: only the speed tells that there is no hand.
-      brake.see(pose.position_m, motion, 0, 1e-3);
+      brake.update(pose.position_m, motion, 0, 1e-3);
     }
     brake.apply({}, motion, 1e-3);
     EXPECT_EQ(brake.held(), !is_faster);
