@@ -76,7 +76,7 @@ Eigen::Vector3d ContactForce::tick(const MovingRelief& surface, const HeightFiel
   follow(grip_m, dt_s);
   proxy_.move(surface, settings.friction, grip_m, dt_s);
   Eigen::Vector3d force_N = wanted_N(texture, settings, grip_m);
-  if (!settings.bounds_energy || !(dt_s > 0)) return force_N;
+  if (!(dt_s > 0)) return force_N;
   follow_energy(settings, moved_m, grip_m);
   const ForcePath path = path_of(settings);
   force_N *= budget_.allowed_fraction(force_N, path, dt_s);

@@ -33,7 +33,6 @@ struct ContactSettings {
   Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
   /// Mass of the grip alone, finite and above 0. A lighter grip can gain energy in a fast tap.
   double least_mass_kg = 0.05;
-  bool bounds_energy = true;  ///< false disables EnergyBudget, for measurements
 
   static constexpr double kMaxStiffness_N_m = 800;
 

@@ -235,30 +235,5 @@ TEST(Threads, ACallbackMayNotCallWhatWaits) {
   }
 }
 
-TEST(Threads, ACallbackInCMayNotCallWhatWaits) {
-  struct Seen {
-    GstSpidarDevice* device;
-    std::atomic<int> kind{-1};
-    std::atomic<bool> waited{true};
-  } seen{gst_spidar_device_open("sim", nullptr, nullptr)};
-  ASSERT_NE(seen.device, nullptr);
-  const auto push = [](const GstSpidarGripState*, GstSpidarWrench* wrench, void* data) {
-    auto* const to = static_cast<Seen*>(data);
-    GstSpidarError error;
-    if (gst_spidar_device_push(to->device, wrench, &error)) return false;
-    to->waited = gst_spidar_device_wait_until_running(to->device, 3'600'000);
-    to->kind = error.kind;
-    return true;
-  };
-  ASSERT_TRUE(
-      gst_spidar_device_set_callback(seen.device, push, &seen, GST_SPIDAR_PASSIVE, nullptr));
-  const auto until = std::chrono::steady_clock::now() + 60s;
-  while (seen.kind < 0 && std::chrono::steady_clock::now() < until)
-    std::this_thread::sleep_for(1ms);
-  EXPECT_EQ(seen.kind, GST_SPIDAR_ERROR_FAILED);
-  EXPECT_FALSE(seen.waited);
-  gst_spidar_device_close(seen.device);
-}
-
 }  // namespace
 }  // namespace gst_spidar

@@ -68,7 +68,7 @@ TEST(ErrorBound, HoldsInNineteenOfTwentyFrames) {
     // SPIDAR_SWEEP=1: the figure of docs/tracking.md, half a minute.
     const unsigned films = std::getenv("SPIDAR_SWEEP") ? 25 : 1;
     for (unsigned seed = 1; seed <= films; ++seed) {
-      const std::vector<Frame> frames = frames_of(motion_case(name).film(kWidth, kHeight, seed));
+      const std::vector<Frame> frames = frames_of(motion_case(name, kWidth, kHeight, seed));
       EXPECT_GE(frames.size(), 8u) << name << ", seed " << seed;
       all.insert(all.end(), frames.begin(), frames.end());
     }

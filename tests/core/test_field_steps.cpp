@@ -204,14 +204,6 @@ TEST(FieldSteps, BlocksMoveAsThePictureDoes) {
   }
 }
 
-TEST(FieldSteps, LightThatChangesIsNoMotion) {
-  BlockField field;
-  field.update(moved_texture(0, 0));
-  EXPECT_EQ(field.update(moved_texture(3, 1, 0.8, 10)), BlockField::Result::kMoved);
-  // The picture before is given the new light and rounded once more.
-  expect_field(field, 3, 1, kRounded + 1);
-}
-
 TEST(FieldSteps, LightThatChangesInAPanIsNoMotion) {
   for (const double pan_px : {5.0, 6.0, 7.0, 8.0}) {
     BlockField field;
@@ -225,14 +217,6 @@ TEST(FieldSteps, LightThatChangesInAPanIsNoMotion) {
     // The blocks of the column that comes into view were not in the picture before.
     EXPECT_GE(right, (field.grid().columns - 2) * field.grid().rows) << pan_px;
   }
-}
-
-TEST(FieldSteps, AnotherPictureIsACut) {
-  BlockField field;
-  field.update(noise(427, 240, 1));
-  EXPECT_EQ(field.update(noise(427, 240, 2)), BlockField::Result::kCut);
-  for (const MotionBlock& block : field.blocks()) EXPECT_EQ(block.moved_px.x(), 0);
-  EXPECT_EQ(field.update(noise(320, 240, 2)), BlockField::Result::kFirst) << "another size";
 }
 
 TEST(FieldSteps, OnlyAnotherPictureIsACutInNoiseToo) {

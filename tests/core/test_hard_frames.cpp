@@ -20,7 +20,7 @@ class HardFrames : public testing::TestWithParam<const char*> {};
 TEST_P(HardFrames, ShowNoMotion) {
   for (const uint32_t seed : {1u, 2u}) {
     SCOPED_TRACE("picture " + std::to_string(seed));
-    test::Film film = test::motion_case(GetParam()).film(kWidth, kHeight, seed);
+    test::Film film = test::motion_case(GetParam(), kWidth, kHeight, seed);
     OpenCvTracker tracker;
     MotionEstimator estimator;
     ReducedFrame reduced;

@@ -52,34 +52,6 @@ TEST(MotionAnalyzer, VelocityIsDisplacementOverRunningTime) {
   }
 }
 
-TEST(MotionAnalyzer, TheForceIsThatOfTheVelocityInTheReferenceFrame) {
-  // The same picture in three sizes: the velocity is that of the frame, the force is the same.
-  struct Size {
-    int width, height;
-  };
-  for (const Size size : {Size{320, 180}, Size{640, 360}, Size{1280, 720}, Size{1920, 1080}}) {
-    const double dx_px = 0.01 * size.height;
-    MovingTexture scene(size.width, size.height, dx_px, 0);
-    MotionAnalyzer analyzer(paper_settings());
-    analyzer.analyze(scene.frame(0), 0);
-    const Frame analysis = analyzer.analyze(scene.frame(1), kFrame_ns);
-    const double tolerance_px_s = kMeanTolerance_px * reduction(size.width, size.height) / kFrame_s;
-    EXPECT_NEAR(analysis.motion.velocity_px_s.x(), dx_px / kFrame_s, tolerance_px_s);
-
-    // Exactly eq. 15 of the velocity reported.
-    GainController controller({ControlLaw::kNonlinear, 3.0, 0.0025});
-    const Wrench expected = render_motion(controller, analysis.motion, {}, size.height);
-    EXPECT_EQ(analysis.wrench.stacked(), expected.stacked());
-
-    // 0.01 · 480 px in 40 ms: 120 px/s of the reference frame. No slope of eq. 15 is above that at
-    // 0.
-    const double slope_N_s_px = 2 * 3.0 / M_PI * 0.0025;
-    EXPECT_NEAR(analysis.wrench.force_N.x(), controller.force_N(120),
-                slope_N_s_px * tolerance_px_s * kReferenceHeight_px / size.height)
-        << size.width << "x" << size.height;
-  }
-}
-
 TEST(MotionAnalyzer, ARunningTimeThatDoesNotRiseRestarts) {
   MovingTexture scene(640, 360, 3, 0);
   for (const int64_t step_ns : {int64_t{0}, -kFrame_ns, -10'000 * kFrame_ns}) {
@@ -120,29 +92,6 @@ TEST(MotionAnalyzer, ACutShowsNoMotionAndKeepsTheLargestSpeed) {
   EXPECT_TRUE(after.has_motion_before());
   EXPECT_NEAR(after.wrench.force_N.norm(), 3.0 * after.motion.velocity_px_s.norm() / fastest_px_s,
               1e-14);
-}
-
-TEST(MotionAnalyzer, ACutKeepsWhatTheAdaptiveControllerHasLearntAndARestartDoesNot) {
-  AnalyzerSettings settings = paper_settings();
-  settings.controller.law = ControlLaw::kAdaptive;
-  MotionAnalyzer analyzer(settings);
-  GainController controller(settings.controller);
-  int64_t time_ns = 0;
-  // The wrenches of a scene are those of a controller that is told of the same motion.
-  const auto expect_same = [&](uint32_t seed) {
-    MovingTexture scene(640, 360, 6, 2, seed);
-    expect_restarted(analyzer.analyze(scene.frame(0), time_ns += kFrame_ns));
-    for (int n = 1; n < 6; ++n) {
-      const Frame frame = analyzer.analyze(scene.frame(n), time_ns += kFrame_ns);
-      const Wrench expected = render_motion(controller, frame.motion, {}, 360, kFrame_s);
-      EXPECT_EQ(frame.wrench.stacked(), expected.stacked()) << "seed " << seed << ", " << n;
-    }
-  };
-  expect_same(8);
-  expect_same(77);  // a cut
-  analyzer.reset();
-  controller.reset();
-  expect_same(8);
 }
 
 TEST(MotionAnalyzer, TheFilterBeginsAnewAfterACut) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // A surface that stands still gives a hand no more energy than it got from it.
-#include "tests/support/tap.h"
 #include "tests/support/test.h"
 #include "tests/support/touch_surfaces.h"
 #include "tests/support/touched_grip.h"
@@ -9,42 +8,51 @@
 namespace spidar::test::touch_energy_test {
 namespace {
 
-/// For each scene and hand.
-constexpr long kTicks = 30'000;
+constexpr double kBound_J = 5e-6;  // lifts the grip of 0.1 kg by 5 µm
 
-ContactEnergy explore_all(const touch::ContactSettings& settings, bool with_texture) {
-  ContactEnergy all;
-  for (const TouchScene& scene : touch_scenes()) {
-    for (const Hand& hand : {kFirmHand, kLightHand}) {
-      const ContactEnergy energy = explore({&scene.relief}, with_texture ? &scene.texture : nullptr,
-                                           settings, hand, kTicks, 7);
-      EXPECT_GE(energy.contacts, 5) << scene.name << ", " << hand.name;
-      all.contacts += energy.contacts;
-      all.generating += energy.generating;
-      all.worst_J = std::max(all.worst_J, energy.worst_J);
+/// Holds the grip so loosely that it bounces after a tap.
+constexpr Hand kLooseHand{"loose", 30, 0.5};
+
+/// The hand goes from 20 mm above a plane to `depth_m` below it and out again, at the same speed.
+/// The largest energy that a contact gave out (below 0: absorbed), J; −∞ if the grip never touched.
+double tap_J(const touch::ContactSettings& settings, const Hand& hand, double speed_m_s,
+             double depth_m) {
+  constexpr double kAbove_m = 0.02;
+  constexpr int kFaded = 20;  // ticks, ten times the drive's lag
+  static const touch::HeightField plane = plane_field(0);
+  TouchedGrip grip(hand, {0, 0, kAbove_m});
+  touch::ContactForce force;
+  const int down = static_cast<int>((kAbove_m + depth_m) / speed_m_s / TouchedGrip::kTick_s);
+  double most_J = -std::numeric_limits<double>::infinity();
+  double begin_J = 0;
+  bool in_contact = false;
+  int ticks_away = 0;
+  for (int n = 0; n < 2 * down + 400; ++n) {
+    const Eigen::Vector3d wanted_N =
+        force.tick({&plane}, nullptr, settings, grip.measured_m(), TouchedGrip::kTick_s);
+    if (force.proxy().touching()) {
+      if (!in_contact) begin_J = grip.given_J();
+      in_contact = true;
+      ticks_away = 0;
+    } else if (in_contact && ++ticks_away == kFaded) {
+      in_contact = false;
+      most_J = std::max(most_J, begin_J - grip.given_J());
+    }
+    const double hand_m = -depth_m + speed_m_s * TouchedGrip::kTick_s * std::abs(n - down);
+    grip.exchange(wanted_N, {0, 0, std::min(hand_m, kAbove_m)});
+  }
+  return most_J;
+}
+
+/// The largest value over taps of all speeds up to 1 m/s and of several depths.
+double worst_tap_J(const touch::ContactSettings& settings, const Hand& hand) {
+  double most_J = -std::numeric_limits<double>::infinity();
+  for (double speed_m_s = 0.02; speed_m_s < 1; speed_m_s += 0.02) {
+    for (const double depth_m : {0.001, 0.002, 0.004, 0.006, 0.010}) {
+      most_J = std::max(most_J, tap_J(settings, hand, speed_m_s, depth_m));
     }
   }
-  return all;
-}
-
-// 0.005 mJ lift the grip of 0.1 kg by 5 µm, 0.1 mJ by 0.1 mm.
-constexpr double kBound_J = 5e-6;
-constexpr double kStiffBound_J = 1e-4;
-
-TEST(TouchEnergy, NoContactGivesAnyOutByDefault) {
-  touch::ContactSettings settings;
-  EXPECT_LE(explore_all(settings, false).worst_J, kBound_J);
-  settings.friction = 0.3;
-  EXPECT_LE(explore_all(settings, false).worst_J, kBound_J) << "with friction";
-  EXPECT_LE(explore_all(settings, true).worst_J, kBound_J) << "with texture";
-}
-
-TEST(TouchEnergy, NoContactGivesMuchOutWhereItIsStiffest) {
-  touch::ContactSettings settings;
-  settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
-  settings.friction = 0.3;
-  EXPECT_LE(explore_all(settings, false).worst_J, kStiffBound_J);
-  EXPECT_LE(explore_all(settings, true).worst_J, kStiffBound_J) << "with texture";
+  return most_J;
 }
 
 TEST(TouchEnergy, ATapGivesNoneBackHoweverFast) {
@@ -55,15 +63,6 @@ TEST(TouchEnergy, ATapGivesNoneBackHoweverFast) {
     settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
     EXPECT_LE(worst_tap_J(settings, hand), kBound_J) << hand.name;
   }
-}
-
-TEST(TouchEnergy, OfFastTapsItIsSeenWithoutTheBudget) {
-  touch::ContactSettings settings;
-  settings.bounds_energy = false;
-  EXPECT_GT(worst_tap_J(settings, kLightHand), kStiffBound_J);
-  settings.stiffness_N_m = touch::ContactSettings::kMaxStiffness_N_m;
-  EXPECT_GT(worst_tap_J(settings, kFirmHand), kStiffBound_J);
-  EXPECT_GT(worst_tap_J(settings, kLightHand), 10 * kStiffBound_J);
 }
 
 /// The force of a grip that goes in by 3 mm in 10 ms and then down with the surface, at the same

@@ -115,25 +115,6 @@ TEST(TouchProxy, StartingInsideTheSurfaceComesUpSlowly) {
   EXPECT_NEAR(ticks, (left_m / touch::Proxy::kRise_m_s + late_s) / kTick_s, 1);
 }
 
-TEST(TouchProxy, ACutNeitherJumpsUpNorDown) {
-  const touch::HeightField low = plane_field(0);
-  const touch::HeightField high = plane_field(0.010);
-  const Eigen::Vector3d grip_m(0, 0, -0.001);
-  touch::Proxy proxy;
-  go(proxy, {&low}, 0, {0, 0, 0.001}, grip_m, 100);
-  double last_m = proxy.position_m().z();
-  for (const touch::HeightField* field : {&high, &low, &high, &low}) {
-    for (int n = 0; n < 400; ++n) {
-      proxy.move({field}, 0, grip_m, kTick_s);
-      ASSERT_TRUE(proxy.touching());
-      ASSERT_LE(std::abs(proxy.position_m().z() - last_m),
-                touch::Proxy::kFastest_m_s * kTick_s + 1e-12);
-      last_m = proxy.position_m().z();
-    }
-    EXPECT_NEAR(last_m, field == &high ? 0.010 : 0, 1e-9) << "it arrives";
-  }
-}
-
 TEST(TouchProxy, AGripThatIsPushedInFastIsNotTakenForACut) {
   // 1 m/s onto the steepest flank, sideways too: all of the depth is its own way.
   const touch::HeightField slope = sampled_field([](double x_m, double) { return 1.4 * x_m; });
@@ -141,39 +122,6 @@ TEST(TouchProxy, AGripThatIsPushedInFastIsNotTakenForACut) {
   go(proxy, {&slope}, 0, {-0.006, 0, 0.004}, {0.004, 0, -0.004}, 12);
   EXPECT_TRUE(proxy.touching());
   EXPECT_EQ(proxy.shift_m(), 0);
-}
-
-TEST(TouchProxy, NeverGoesThrough) {
-  // Pushes of 1 m/s, a new random surface every 33 ticks, now and then the pose is lost.
-  std::mt19937 random(6);
-  std::uniform_real_distribution<double> uniform(-1, 1);
-  std::vector<TouchScene> scenes = touch_scenes();
-  touch::Proxy proxy;
-  Eigen::Vector3d grip_m(0, 0, 0.003);
-  Eigen::Vector3d velocity_m_s(0, 0, 0);
-  touch::MovingRelief surface{&scenes[0].relief};
-  int touched = 0;
-  for (int n = 0; n < 100000; ++n) {
-    if (n % 33 == 0) {
-      surface.before = surface.after != nullptr ? surface.after : surface.before;
-      surface.after = &scenes[random() % scenes.size()].relief;
-      surface.displacement_m = 0.002 * Eigen::Vector2d(uniform(random), uniform(random));
-    }
-    surface.fraction = n % 33 / 33.0;
-    if (n % 50 == 0)
-      velocity_m_s = Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
-    grip_m += kTick_s * velocity_m_s;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (std::abs(grip_m[axis]) > 0.012) velocity_m_s[axis] = -std::copysign(1, grip_m[axis]);
-    }
-    if (n % 977 == 0) proxy.reset();
-    proxy.move(surface, 0.4, grip_m, kTick_s);
-    const double surface_m = surface.at(grip_m.head<2>()).z_m + proxy.shift_m();
-    ASSERT_TRUE(proxy.touching() || grip_m.z() >= surface_m) << n;
-    touched += proxy.touching();
-    ASSERT_TRUE(proxy.position_m().allFinite());
-  }
-  EXPECT_GT(touched, 10000);
 }
 
 TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {

@@ -46,25 +46,6 @@ TEST(Washout, WhatWasLostComesBackInTheOppositeDirection) {
   }
 }
 
-/// |H| = f / √(f² + fc²), but for what the frames between two samples add: less than ω Δt.
-TEST(Washout, ASwayPassesAsAHighPassOfFirstOrderLetsIt) {
-  constexpr double kFrame_s = 0.001;
-  for (const double sway_Hz : {0.05, 0.2, 1.0, 4.0}) {
-    constexpr double kCutoff_Hz = 0.2;
-    Washout washout;
-    double largest_N = 0;
-    const int settled = static_cast<int>(10 / (kTwoPi * kCutoff_Hz) / kFrame_s);
-    const int period = static_cast<int>(1 / sway_Hz / kFrame_s);
-    for (int n = 0; n < settled + 2 * period; ++n) {
-      const Wrench in = pushed(std::sin(kTwoPi * sway_Hz * kFrame_s * n));
-      const double out_N = washout.apply(in, kFrame_s, kCutoff_Hz, kMost_N).force_N.x();
-      if (n >= settled) largest_N = std::max(largest_N, std::fabs(out_N));
-    }
-    EXPECT_NEAR(largest_N, sway_Hz / std::hypot(sway_Hz, kCutoff_Hz), kTwoPi * sway_Hz * kFrame_s)
-        << sway_Hz;
-  }
-}
-
 TEST(Washout, AForceThatTurnsRoundStaysWithinTheLargest) {
   constexpr double kFrame_s = 0.04;
   Washout washout;

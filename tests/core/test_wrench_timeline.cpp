@@ -149,36 +149,6 @@ TEST(WrenchTimeline, ALaterFrameRevivesAnExpiredOne) {
   EXPECT_EQ(timeline.at(3 * kFrame_ns).found, Found::kInterpolated);
 }
 
-TEST(WrenchTimeline, RefusesTimesThatDoNotRise) {
-  WrenchTimeline timeline = two_frames();
-  EXPECT_FALSE(timeline.push(timed(kFrame_ns, 9)));
-  EXPECT_FALSE(timeline.push(timed(kFrame_ns - 1, 9)));
-  EXPECT_EQ(timeline.size(), 2u);
-  EXPECT_TRUE(same_bits(timeline.at(kFrame_ns).wrench, wrench_of(3)));
-}
-
-TEST(WrenchTimeline, ForgetsTheOldestWhenFull) {
-  WrenchTimeline timeline;
-  constexpr auto kCount = static_cast<int>(WrenchTimeline::kCapacity) + 10;
-  for (int i = 0; i < kCount; ++i) ASSERT_TRUE(timeline.push(timed(i * kFrame_ns, i)));
-  EXPECT_EQ(timeline.size(), WrenchTimeline::kCapacity);
-  EXPECT_EQ(timeline.at(9 * kFrame_ns).found, Found::kNothing);
-  for (int i = 10; i < kCount; ++i) {
-    const TimelineResult result = timeline.at(i * kFrame_ns);
-    EXPECT_EQ(result.found, Found::kExact) << i;
-    EXPECT_TRUE(same_bits(result.wrench, wrench_of(i))) << i;
-  }
-}
-
-TEST(WrenchTimeline, ClearForgetsEverything) {
-  WrenchTimeline timeline = two_frames();
-  timeline.clear();
-  EXPECT_EQ(timeline.size(), 0u);
-  EXPECT_EQ(timeline.at(kFrame_ns).found, Found::kNothing);
-  EXPECT_TRUE(timeline.push(timed(-5, 2)));
-  EXPECT_EQ(timeline.at(-5).found, Found::kExact);
-}
-
 constexpr int64_t kRamp_ns = WrenchTimeline::kRamp_ns;
 constexpr int64_t kGap_ns = 8'000'000'000;
 

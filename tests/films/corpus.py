@@ -58,10 +58,6 @@ class Film:
         return (y, -x) if self.kind["extra"] == TURNED else (x, y)  # clockwise
 
     @property
-    def has_sound(self):
-        return self.kind["sound"] != "none"
-
-    @property
     def sound_goes_on(self):
         """So long after the pictures that it would take the test's time."""
         return SOUND_TIMES[self.kind["sound time"]][1] > 1

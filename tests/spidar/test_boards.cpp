@@ -97,26 +97,6 @@ TEST_P(Boards, DestructionRampsToZeroToo) {
   EXPECT_TRUE(motors.all_zero());
 }
 
-TEST_P(Boards, EveryFaultIsNamedCountedAndForgotten) {
-  const auto device = this->device();
-  device->open();
-  const auto exchange = [&] {
-    DeviceReading reading;
-    return device->exchange(all_volts(1), reading);
-  };
-  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kShort, LinkFault::kBabble,
-                                LinkFault::kBusError, LinkFault::kStall, LinkFault::kGone}) {
-    *wire = fault;
-    const uint64_t before = device->health().count(fault);
-    EXPECT_EQ(exchange(), fault);
-    EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
-    EXPECT_EQ(device->health().last_fault, fault);
-    *wire = LinkFault::kNone;
-    if (fault == LinkFault::kGone) device->open();
-    EXPECT_EQ(exchange(), LinkFault::kNone) << "after " << to_string(fault);
-  }
-}
-
 TEST_P(Boards, GarbageIsNotTakenForCounts) {
   const auto device = this->device();
   device->open();
@@ -245,16 +225,6 @@ TEST_P(Boards, OpenSaysWhatIsWrong) {
   }
   *wire = LinkFault::kNone;
   device->open();
-}
-
-TEST_P(Boards, TheHapticLoopDrivesIt) {
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  HapticSession session(profile, this->device(), by_hand);
-  EXPECT_TRUE(motors.all_zero());
-  tick_until_running(session);
-  EXPECT_EQ(session.loop().snapshot().counters.exchange_errors, 0u);
-  EXPECT_FALSE(motors.all_zero());
 }
 
 }  // namespace

@@ -261,19 +261,6 @@ TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-TEST_F(ForceFeedback, IsTakenBackUnderWhateverNumber) {
-  const EvdevIdentity stick{"", "usb-1/input0"};
-  plug_evdev(0, EvdevKind::kStick, nullptr, stick);
-  const FeltPlayer player;
-  player.push(1, 0);
-  wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
-  unplug_evdev(0);
-  wait_for([&] { return player.now().last.device == DeviceState::kLost; });
-  EXPECT_EQ(player.session->grip().health().last_fault, LinkFault::kGone);
-  plug_evdev(3, EvdevKind::kStick, nullptr, stick);
-  wait_for([] { return is_level(evdev_levels(3).right, 1, 1); });
-}
-
 /// A name is what a device says of itself: a terminal must not obey it.
 TEST_F(ForceFeedback, ItsNameIsHarmless) {
   plug_evdev(0, EvdevKind::kStick, nullptr, {"\x1b[2J", nullptr, "\x1b]0;title\x07\x9bStick"});

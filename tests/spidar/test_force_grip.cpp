@@ -78,43 +78,6 @@ TEST_P(ForceBoards, DestructionEndsAtRestToo) {
   EXPECT_TRUE(motors.all_zero());
 }
 
-TEST_P(ForceBoards, EveryFaultIsNamedCountedAndForgotten) {
-  const auto device = linked();
-  device->open();
-  std::vector<LinkFault> faults{LinkFault::kStall, LinkFault::kGone};
-  // The mouse is sent reports, and does not reply.
-  if (GetParam() != "mouse")
-    faults.insert(faults.begin(), {LinkFault::kTimeout, LinkFault::kShort, LinkFault::kBabble,
-                                   LinkFault::kBusError});
-  for (const LinkFault fault : faults) {
-    *wire = fault;
-    const uint64_t before = device->health().count(fault);
-    EXPECT_EQ(exchange(*device, pushing(1), 1), fault);
-    EXPECT_EQ(device->health().count(fault), before + 1) << to_string(fault);
-    EXPECT_EQ(device->health().last_fault, fault);
-    *wire = LinkFault::kNone;
-    if (fault == LinkFault::kGone) device->open();
-    EXPECT_EQ(exchange(*device, pushing(1), 1), LinkFault::kNone) << "after " << to_string(fault);
-  }
-}
-
-TEST_P(ForceBoards, OpenSaysWhatIsWrong) {
-  const auto device = linked();
-  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kBabble}) {
-    *wire = fault;
-    try {
-      device->open();
-      FAIL() << to_string(fault);
-    } catch (const DeviceError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.find(kind.board), 0u) << what;
-      EXPECT_NE(what.find(to_string(fault)), std::string::npos) << what;
-    }
-  }
-  *wire = LinkFault::kNone;
-  device->open();
-}
-
 /// A force that lasts is no sign of a dead sensor: a stick may be held still, and the mouse has no
 /// sensor.
 TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {

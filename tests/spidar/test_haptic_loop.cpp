@@ -141,6 +141,19 @@ TEST(HapticLoop, LongQueueBeforeTheScreen) {
   }
 }
 
+TEST(HapticLoop, OfAThousandFramesASecondNoneIsMissed) {
+  LoopDriver driver;
+  driver.open();
+  for (int i = 0; i < 200; ++i) driver.loop->schedule({i * kMs, 100 * kMs, push_right(0.01 * i)});
+  driver.play(0);
+  for (int i = 1; i < 200; ++i) {
+    const TickRecord record = driver.tick();
+    ASSERT_EQ(record.frame_ns, i * kMs);
+    ASSERT_EQ(record.found, Found::kExact) << "frame " << i;
+    ASSERT_EQ(record.wanted.force_N.x(), 0.01 * i) << "frame " << i;
+  }
+}
+
 TEST(HapticLoop, SaysWhenItsRingIsFull) {
   LoopDriver driver;
   int taken = 0;

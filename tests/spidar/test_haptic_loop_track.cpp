@@ -36,55 +36,8 @@ struct TrackDriver : LoopDriver {
     for (int i = 0; i < ticks; ++i) record = watched_tick();
     return record;
   }
-  void schedule(int64_t from_ms, int64_t to_ms) {
-    for (int64_t ms = from_ms; ms < to_ms; ms += TrackBlock::kCapacity) {
-      ASSERT_TRUE(loop->schedule(block_of(ms)));
-    }
-  }
-
   TickWatch watch;
 };
-
-TEST(HapticLoopTrack, FeelsEverySample) {
-  TrackDriver driver;
-  driver.schedule(0, 400);
-  driver.play(0);
-  for (int ms = 1; ms < 400; ++ms) {
-    const TickRecord record = driver.watched_tick();
-    ASSERT_EQ(record.found, Found::kExact) << ms;
-    ASSERT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * fraction_at(ms));
-    ASSERT_EQ(record.wanted.force_N.y(), -record.wanted.force_N.x());
-    // After the ramp in the wrench is within the limits, and so it is commanded.
-    ASSERT_TRUE(ms <= 60 || record.commanded.stacked() == record.wanted.stacked()) << ms;
-  }
-}
-
-TEST(HapticLoopTrack, RestsWithinFiftyMillisecondsOfTheLastSampleAndComesBackWithoutAKick) {
-  TrackDriver driver;
-  driver.schedule(0, 80);
-  driver.play(0);
-  EXPECT_GT(driver.watched_run(79).commanded.force_N.norm(), 1);
-  EXPECT_EQ(driver.watched_run(50).commanded.stacked().norm(), 0);
-  driver.watched_run(20);
-  driver.schedule(160, 320);
-  const TickRecord back = driver.watched_run(161 - 149 + 60);
-  EXPECT_EQ(back.commanded.stacked(), back.wanted.stacked());
-  EXPECT_GT(back.commanded.force_N.norm(), 0.1);
-}
-
-TEST(HapticLoopTrack, AFlushForgetsSamplesAlsoThoseOfABlockThatIsBeingRead) {
-  TrackDriver driver;
-  driver.schedule(0, 2000);
-  driver.play(0);
-  driver.watched_run(100);
-  driver.loop->cancel_scheduled();
-  EXPECT_EQ(driver.watched_tick().found, Found::kNothing);
-  driver.schedule(1000, 1400);
-  driver.play(1000 * kMs);
-  const TickRecord record = driver.watched_run(90);
-  EXPECT_EQ(record.found, Found::kExact);
-  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * fraction_at(1090));
-}
 
 TEST(HapticLoopTrack, AFlushMakesRoomAlsoWhileNothingPlays) {
   TrackDriver driver;
@@ -116,15 +69,6 @@ TEST(HapticLoopTrack, NoSampleHoweverBadBreaksALimit) {
   EXPECT_EQ(driver.watch.last().commanded.stacked().norm(), 0);
   EXPECT_GT(driver.watch.felt(), 100u);
   EXPECT_GT(driver.counters().rejected_wrenches, 0u);
-}
-
-TEST(HapticLoopTrack, WhereThereIsATrackFramesAreNotFelt) {
-  TrackDriver driver;
-  for (int i = 0; i < 20; ++i) driver.loop->schedule({i * 40 * kMs, 50 * kMs, push_right(-1)});
-  driver.play(0);
-  EXPECT_EQ(driver.watched_run(100).wanted.force_N.x(), -1);
-  driver.schedule(120, 400);
-  EXPECT_EQ(driver.watched_run(150).wanted.force_N.x(), kTrackForceScale_N * fraction_at(250));
 }
 
 }  // namespace

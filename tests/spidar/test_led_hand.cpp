@@ -48,24 +48,6 @@ TEST(LedHand, GoesThereAndBackNoFasterThanAHand) {
   EXPECT_EQ(hand.advance(rest, {}, kTick_s).position_m, rest.position_m) << "at rest as before";
 }
 
-TEST_F(SimulatedDeviceTest, TheGripFollowsALedHandAndComesBack) {
-  SimulatedDevice device(profile, kFixedStep);
-  device.open();
-  DeviceReading reading;
-  const auto run = [&](int ticks) {
-    for (int tick = 0; tick < ticks; ++tick) device.exchange({}, reading);
-    return device.felt().pose.position_m;
-  };
-  const Eigen::Vector3d there_m(0.02, 0.01, -0.005);
-  device.lead_hand(there_m);
-  // Without tensions only the hand's spring acts, damped by c = 8 N s/m at 0.1 kg: what is left of
-  // the way falls at least as exp(−c t / 2 m) = exp(−40 t / s). After 46 ms of leading and 1 s that
-  // is less than a picometre.
-  EXPECT_LT((run(1100) - there_m).norm(), 1e-9);
-  device.lead_hand(std::nullopt);
-  EXPECT_LT(run(1100).norm(), 1e-9);
-}
-
 TEST_F(SimulatedDeviceTest, AHandIsLedToTheFrameAtMostAndNowhereWithoutAPlace) {
   SimulatedDevice device(profile, kFixedStep);
   device.open();

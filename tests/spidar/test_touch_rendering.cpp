@@ -160,46 +160,6 @@ TEST(TouchRendering, ACutIsThereWhenItIsDueAndRisesSlowly) {
   EXPECT_NEAR(last_m, 0.011, kRounding_m);
 }
 
-/// The surface goes away, and comes again as if the grip had just been put into it.
-void expect_fresh_start(Touched& touched, const std::function<void()>& end,
-                        const std::function<void()>& begin) {
-  publish_plane(touched.mailbox, 0, 0);
-  EXPECT_NEAR(touched.run(20 * kFrame).force_N.z(), 2.5, 1e-6);
-  end();
-  for (int tick = 0; tick < 10; ++tick) ASSERT_EQ(touched.tick().force_N.norm(), 0);
-  begin();
-  double last_m = 0;
-  for (int tick = 0; tick < 1000; ++tick) {
-    const double depth_m = touched.tick().depth_m;
-    const double most_m = tick == 0 ? touch::Proxy::kFastest_m_s : touch::Proxy::kRise_m_s;
-    ASSERT_LE(depth_m - last_m, most_m * kTick_s + 1e-12) << tick;
-    last_m = depth_m;
-  }
-  EXPECT_NEAR(last_m, 0.005, kRounding_m);
-}
-
-TEST(TouchRendering, WhatIsForgottenIsGoneAtOnce) {
-  Touched touched;
-  expect_fresh_start(
-      touched, [&] { touched.mailbox.clear(); },
-      [&] { publish_plane(touched.mailbox, touched.now_ns, 0); });
-}
-
-TEST(TouchRendering, NothingToTouchIsAFrame) {
-  Touched touched;
-  expect_fresh_start(
-      touched, [&] { publish_nothing(touched.mailbox, touched.now_ns); },
-      [&] { publish_plane(touched.mailbox, touched.now_ns, 0); });
-}
-
-TEST(TouchRendering, AfterRestTheGripIsANewOne) {
-  Touched touched;
-  publish_plane(touched.mailbox, 0, 0);
-  EXPECT_NEAR(touched.run(20 * kFrame).force_N.z(), 2.5, 1e-6);
-  touched.rendering.rest(touched.mailbox);
-  EXPECT_LE(touched.tick().force_N.z(), 0.1 + 1e-9) << "0.2 mm at 500 N/m";
-}
-
 TEST(TouchRendering, AStallIsNoKnock) {
   Touched touched;
   publish_plane(touched.mailbox, 0, 0);

@@ -150,16 +150,5 @@ TEST(ShakeWatch, NoticesShakingAndNothingElse) {
   EXPECT_EQ(watch.fraction(), touch::ShakeWatch::kMinFraction);
 }
 
-TEST(TouchStrings, WithoutDampingItIsSeen) {
-  StringTouch touch;
-  touch.contact.stiffness_N_m = 700;
-  touch.contact.damping = 0;  // validate() refuses it
-  touch.contact.bounds_energy = false;
-  const TouchScene plane{"plane", plane_field(-0.002), plane_field(0)};
-  const ContactEnergy energy = explore_through_strings(plane, touch, kLightHand, 30'000, 7);
-  EXPECT_GT(energy.worst_J, kStiffBound_J);
-  EXPECT_GT(energy.generating, energy.contacts / 2);
-}
-
 }  // namespace
 }  // namespace spidar::test::touch_strings_test

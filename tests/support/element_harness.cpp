@@ -100,10 +100,6 @@ void ElementHarness::drain() {
         gst_message_parse_error(message, &error, nullptr);
         errors_.emplace_back(error->message);
         break;
-      case GST_MESSAGE_QOS:
-        qualities_.emplace_back();
-        gst_message_parse_qos_values(message, nullptr, nullptr, &qualities_.back());
-        break;
       default:
         break;
     }
@@ -125,11 +121,6 @@ const std::vector<std::string>& ElementHarness::warnings() {
 const std::vector<std::string>& ElementHarness::errors() {
   drain();
   return errors_;
-}
-
-const std::vector<gint>& ElementHarness::qualities() {
-  drain();
-  return qualities_;
 }
 
 filter::MotionState& ElementHarness::state() {

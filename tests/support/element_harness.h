@@ -50,7 +50,6 @@ class ElementHarness {
   const std::vector<MotionMessage>& motions();
   const std::vector<std::string>& warnings();
   const std::vector<std::string>& errors();
-  const std::vector<gint>& qualities();
 
   GstElement* element() const { return harness_->element; }
   GstHarness* harness() const { return harness_; }
@@ -71,7 +70,6 @@ class ElementHarness {
   std::vector<MotionMessage> motions_;
   std::vector<std::string> warnings_;
   std::vector<std::string> errors_;
-  std::vector<gint> qualities_;
 };
 
 }  // namespace spidar::test

@@ -10,7 +10,6 @@
 namespace spidar::test {
 
 using Eigen::Affine2d;
-using Eigen::Matrix2d;
 using Eigen::Translation2d;
 using Eigen::Vector2d;
 
@@ -20,18 +19,6 @@ SheetPath still() {
 
 SheetPath straight(const Vector2d& start_px, const Vector2d& step_px) {
   return [=](double t) { return Affine2d(Translation2d(start_px + t * step_px)); };
-}
-
-SheetPath growing(const Matrix2d& generator) {
-  return [=](double t) {
-    Matrix2d term = Matrix2d::Identity();
-    Matrix2d sum = term;
-    for (int k = 1; k <= 20; ++k) {  // 1/20! is below the precision of a double
-      term = term * generator * (t / k);
-      sum += term;
-    }
-    return Affine2d(sum);
-  };
 }
 
 Film FilmStudio::still_film() {
@@ -45,12 +32,8 @@ Film FilmStudio::behind(std::shared_ptr<const SplineSheet> sheet, SheetPath pose
   return film;
 }
 
-Film FilmStudio::camera(SheetPath pose) {
-  return behind(background(), std::move(pose));
-}
-
 Film FilmStudio::pan(double x, double y) {
-  return camera(straight({0, 0}, unit_ * Vector2d(x, y)));
+  return behind(background(), straight({0, 0}, unit_ * Vector2d(x, y)));
 }
 
 Film FilmStudio::usual_object(double x, double y) {

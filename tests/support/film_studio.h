@@ -14,8 +14,6 @@ namespace spidar::test {
 SheetPath still();
 /// From `start_px` by `step_px` a frame.
 SheetPath straight(const Eigen::Vector2d& start_px, const Eigen::Vector2d& step_px);
-/// About the middle by exp(t · generator), |t · generator| < 1.
-SheetPath growing(const Eigen::Matrix2d& generator);
 
 /// Renders films of one size from the same sheets. Lengths are at a width of 640 px: a wider film
 /// shows the same with more detail. Sheets are drawn when a film first needs them and stored for
@@ -30,7 +28,6 @@ class FilmStudio {
 
   Film still_film();
   Film behind(std::shared_ptr<const SplineSheet> sheet, SheetPath pose) const;
-  Film camera(SheetPath pose);
   Film pan(double x, double y);
   /// A disc of kFraction of the frame.
   Film usual_object(double x, double y);

@@ -26,29 +26,10 @@ double inside_px(const FilmObject& object, const Eigen::Vector2d& on_object) {
 
 }  // namespace
 
-Eigen::Vector2d Film::displacement_px(int frame, const Eigen::Vector2d& from_px) const {
-  const Eigen::Vector2d at_px = from_px - middle_px();
-  for (auto object = objects.rbegin(); object != objects.rend(); ++object) {
-    if (inside_px(*object, object->pose(frame - 1).inverse() * at_px) >= 0) {
-      return moved_px(object->pose, frame, at_px);
-    }
-  }
-  return moved_px(background_at(frame).pose, frame, at_px);
-}
-
 Eigen::Vector2d Film::object_displacement_px(int frame, const FilmObject& object,
                                              const Eigen::Vector2d& from_px) const {
   const Eigen::Vector2d at_px = from_px - middle_px();
   return moved_px(object.pose, frame, at_px) - moved_px(background_at(frame).pose, frame, at_px);
-}
-
-bool Film::is_in_view(int frame, const FilmObject& object) const {
-  for (int n = std::max(0, frame - 2); n <= frame; ++n) {
-    const Eigen::Vector2d room_px =
-        Eigen::Vector2d(width(), height()) / 2 - object.centre_px(n).cwiseAbs();
-    if (room_px.minCoeff() < 0) return false;
-  }
-  return frame >= 2;
 }
 
 void Film::add_object(double time, const FilmObject& object) {

@@ -24,8 +24,6 @@ struct FilmObject {
   std::shared_ptr<const SplineSheet> sheet;
   Eigen::Vector2d radii_px;
   SheetPath pose;
-
-  Eigen::Vector2d centre_px(double frame) const { return pose(frame).translation(); }
 };
 
 struct FilmBackground {
@@ -60,13 +58,9 @@ class Film {
   /// Valid until the next call.
   ImageView draw(int frame);
 
-  /// The position in this frame of `from_px` in the previous frame.
-  Eigen::Vector2d displacement_px(int frame, const Eigen::Vector2d& from_px) const;
   /// The displacement of an object relative to the background.
   Eigen::Vector2d object_displacement_px(int frame, const FilmObject& object,
                                          const Eigen::Vector2d& from_px) const;
-  /// Whether the object shows at least half of its area in this frame and the two before.
-  bool is_in_view(int frame, const FilmObject& object) const;
 
  private:
   const FilmBackground& background_at(int frame) const {

@@ -130,35 +130,4 @@ struct ContactEnergy {
   }
 };
 
-/// Lets the hand explore for this number of ticks. The grip first has half a second to reach the
-/// hand from above. A contact is over when the force has faded: 20 ticks, ten times the drive's
-/// lag, after the proxy has left.
-inline ContactEnergy explore(const touch::MovingRelief& relief, const touch::HeightField* texture,
-                             const touch::ContactSettings& settings, const Hand& hand, long ticks,
-                             unsigned seed) {
-  constexpr int kFaded = 20;
-  constexpr long kArrived = 500;
-  const RandomHand random(seed);
-  TouchedGrip grip(hand, {0, 0, 0.02});
-  touch::ContactForce force;
-  ContactEnergy result;
-  bool in_contact = false;
-  int ticks_away = 0;
-  double begin_J = 0;
-  for (long tick = 0; tick < ticks; ++tick) {
-    const Eigen::Vector3d wanted_N =
-        force.tick(relief, texture, settings, grip.measured_m(), TouchedGrip::kTick_s);
-    if (force.proxy().touching()) {
-      if (!in_contact) begin_J = grip.given_J();
-      in_contact = true;
-      ticks_away = 0;
-    } else if (in_contact && ++ticks_away == kFaded) {
-      in_contact = false;
-      if (tick > kArrived) result.add(begin_J - grip.given_J());
-    }
-    grip.exchange(wanted_N, random.at_m(1e-3 * static_cast<double>(tick)));
-  }
-  return result;
-}
-
 }  // namespace spidar::test

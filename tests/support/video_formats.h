@@ -31,10 +31,6 @@ inline const std::vector<std::string>& video_formats() {
   return formats;
 }
 
-inline GstVideoFormat format_named(const std::string& name) {
-  return gst_video_format_from_string(name.c_str());
-}
-
 /// Writes a component of one pixel: `level`, 0 … 255, into its eight highest bits, and `rest` into
 /// the bits below, if there are any.
 inline void write_sample(const GstVideoFormatInfo& format, guint component, guint level, guint rest,
@@ -51,13 +47,6 @@ inline void write_sample(const GstVideoFormatInfo& format, guint component, guin
   const bool low_first = GST_VIDEO_FORMAT_INFO_IS_LE(&format);
   sample[low_first ? 0 : 1] = static_cast<guint8>(word & 0xFF);
   sample[low_first ? 1 : 0] = static_cast<guint8>(word >> 8);
-}
-
-/// The offset of a pixel's component, bytes: in a plane of UV words, V is the second byte.
-inline int component_offset(const GstVideoFormatInfo& format, guint component) {
-  const bool word = GST_VIDEO_FORMAT_INFO_DEPTH(&format, component) > 8;
-  if (!word) return GST_VIDEO_FORMAT_INFO_POFFSET(&format, component);
-  return component == 2 && GST_VIDEO_FORMAT_INFO_N_PLANES(&format) == 2 ? 2 : 0;
 }
 
 }  // namespace spidar::test
