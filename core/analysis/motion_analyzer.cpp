@@ -3,51 +3,86 @@
 #include "core/analysis/motion_analyzer.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "core/motion/image_motion.h"
 
 namespace spidar {
+namespace {
+
+/// After so many pairs of pictures, a part of the picture shows whatever it may show: an object
+/// that is seen with one block only has been born (ObjectLife::kBornAfterBlocks).
+constexpr int kSettles_pairs = ObjectLife::kBornAfterBlocks;
+
+/// By less, on an average, the points of a picture at rest seem to move: blocks are right to a
+/// tenth of a pixel of the field.
+constexpr double kFlickers_px = 0.1;
+/// By less, on an average, what is in a part of the reduced picture has moved while its camera
+/// rests: a pixel, as far as sides may seem to.
+constexpr double kRests_px = 1;
+
+/// Whether no side differs by more than a pixel of the reduced picture, of which it is known.
+bool is_near(const PicturePart& a, const PicturePart& b, int factor) {
+  return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y),
+                   std::abs(a.x + a.width - b.x - b.width),
+                   std::abs(a.y + a.height - b.y - b.height)}) <= factor;
+}
+
+/// How far points move on an average, px.
+Eigen::Vector2d mean_step_of(const std::vector<FollowedPoint>& points) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const FollowedPoint& point : points) {
+    sum += Eigen::Vector2d(point.to.x_px - point.from.x_px, point.to.y_px - point.from.y_px);
+  }
+  return points.empty() ? sum : sum / static_cast<double>(points.size());
+}
+
+}  // namespace
 
 void MotionAnalyzer::take(const Cadence::Step& step) {
   frame_.interval_ns = std::max(step.interval_ns, kMinInterval_ns);
   frame_.shown_for_ns = step.shown_for_ns;
 }
 
+/// Measures all of a picture of another size, or the part that the setting names.
+void MotionAnalyzer::enter(const ImageView& picture) {
+  FilmPlace& place = frame_.place;
+  const bool is_other_size =
+      place.picture_width != picture.width || place.picture_height != picture.height;
+  const PicturePart set = settings_.area.of_picture(picture.width, picture.height);
+  if (is_other_size) area_finder_.reset();
+  if (is_other_size || (!finds_area() && set != now_->area)) {
+    now_->begin(set);
+    next_->area = {};
+    page_scroll_.reset();
+  }
+  place = {now_->area, picture.width, picture.height};
+}
+
 /// Reads the film in a picture, in which compare() then finds what moves.
-Likeness MotionAnalyzer::read(const ImageView& film, bool may_wait) {
-  return by_points() ? tracker_.track(film, may_wait).picture : reduced_.read(film, may_wait);
+Likeness MotionAnalyzer::read(Measured& measured, const ImageView& film, bool may_wait) const {
+  return by_points() ? measured.tracker.track(film, may_wait).picture
+                     : measured.reduced.read(film, may_wait);
 }
 
 /// Returns false when there is nothing to compare the film with.
-bool MotionAnalyzer::compare(const ImageView& film) {
-  if (!by_points()) return motion_.estimate(film, reduced_, frame_, frame_.felt_object);
-  const OpenCvTracker::Result& tracked = tracker_.result();
-  frame_.features = tracked.features;
-  if (tracked.picture == Likeness::kFirst) return false;
-  frame_.points = tracked.points;
-  frame_.mean = mean_motion(tracked.points, frame_.interval_ns);
-  return true;
-}
-
-/// The part of the picture that shows the film, as far as earlier pictures have told.
-PicturePart MotionAnalyzer::area_of(const ImageView& picture) {
-  const PicturePart all = settings_.area.of_picture(picture.width, picture.height);
-  if (!finds_area()) return all;
-  const FilmPlace& before = frame_.place;
-  if (before.picture_width != picture.width || before.picture_height != picture.height) {
-    area_finder_.reset();
+bool MotionAnalyzer::compare(Measured& measured, const ImageView& film, MeasuredFrame& frame,
+                             uint32_t felt) const {
+  bool is_compared = false;
+  if (by_points()) {
+    const OpenCvTracker::Result& tracked = measured.tracker.result();
+    frame.features = tracked.features;
+    is_compared = tracked.picture != Likeness::kFirst;
+    if (is_compared) {
+      frame.points = tracked.points;
+      frame.mean = mean_motion(tracked.points, frame.interval_ns);
+    }
+  } else {
+    is_compared = measured.motion.estimate(film, measured.reduced, frame, felt);
   }
-  const std::optional<PicturePart>& found = area_finder_.area();
-  if (!found) return all;
-  const int factor = halving_factor(picture.width, picture.height);
-  // The last columns and rows may not fill a pixel of the reduced picture.
-  const int right = found->x + found->width, bottom = found->y + found->height;
-  const bool is_at_right = right == picture.width / factor;
-  const bool is_at_bottom = bottom == picture.height / factor;
-  const int x = factor * found->x, y = factor * found->y;
-  return {x, y, (is_at_right ? picture.width : factor * right) - x,
-          (is_at_bottom ? picture.height : factor * bottom) - y};
+  measured.pairs = is_compared ? measured.pairs + 1 : 0;
+  return is_compared;
 }
 
 /// Shows the reduced picture to the finder. Where the film fills it, the analysis has made it.
@@ -59,111 +94,112 @@ void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& fi
   if (!is_reduced) {
     reduce_blocks(picture, halving_factor(picture.width, picture.height), whole_);
   }
-  area_finder_.look((is_reduced ? reduced_.base() : whole_).view(), running_ns, scrolls);
+  area_finder_.look((is_reduced ? now_->reduced.base() : whole_).view(), running_ns, scrolls);
   frame_.place.is_known = !area_finder_.is_searching();
   frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
 
-/// Tells the finder how what may be the film moves on an average. What else is there, such as an
-/// object that does not move with it, makes that less.
-void MotionAnalyzer::tell_of_candidate(int64_t running_ns) {
-  const std::optional<PicturePart> part = area_finder_.candidate();
-  if (!part) return;
-  const double factor = halving_factor(frame_.place.picture_width, frame_.place.picture_height);
-  double across_px = 0, down_px = 0;
-  int count = 0;
-  for (const FollowedPoint& point : frame_.points) {
-    const double x = point.to.x_px / factor - part->x, y = point.to.y_px / factor - part->y;
-    if (x < 0 || y < 0 || x >= part->width || y >= part->height) continue;
-    across_px += point.to.x_px - point.from.x_px;
-    down_px += point.to.y_px - point.from.y_px;
-    ++count;
-  }
-  if (count == 0) return;
-  area_finder_.tell(across_px / factor / count, down_px / factor / count, running_ns);
+/// Where the film may be, as far as the finder tells.
+PicturePart MotionAnalyzer::film_in(const ImageView& picture) const {
+  const std::optional<PicturePart> part = area_finder_.film();
+  const int width = picture.width, height = picture.height;
+  if (!part) return {0, 0, width, height};
+  const int factor = halving_factor(width, height);
+  // The last columns and rows may not fill a pixel of the reduced picture.
+  const int right = part->x + part->width, bottom = part->y + part->height;
+  const int x = factor * part->x, y = factor * part->y;
+  return {x, y, (right == width / factor ? width : factor * right) - x,
+          (bottom == height / factor ? height : factor * bottom) - y};
 }
 
-/// Measures this area from this picture on. If the previous frame showed another one, there is
-/// nothing to compare it with.
-void MotionAnalyzer::enter(const PicturePart& area, const ImageView& picture) {
-  if (area != frame_.place.area) {
-    reset_measuring();
-    page_scroll_.reset();
+/// Measures where the film is found or suspected, beside what is felt and then in its place.
+/// Returns whether anything was found that may be felt.
+bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int64_t running_ns) {
+  const int factor = halving_factor(picture.width, picture.height);
+  const PicturePart film = film_in(picture);
+  const bool may_be_felt = is_compared && frame_.place.is_known;
+  if (is_near(film, now_->area, factor)) {
+    next_->area = {};
+    return may_be_felt;
   }
-  frame_.place = {area, picture.width, picture.height};
-}
-
-/// Begins anew in the part of the picture that has just been found to be the film. Returns false if
-/// there is none, or it is the one that is measured.
-bool MotionAnalyzer::begins_in_part(const ImageView& picture) {
-  const PicturePart found = area_of(picture);
-  if (found == frame_.place.area) return false;
-  enter(found, picture);
-  const ImageView film = part_of(picture, found);
-  read(film);
-  if (!by_points()) motion_.estimate(film, reduced_, frame_);
-  return true;
-}
-
-/// Finds what moves in the film that was read, in the time of `step`. Returns false when there is
-/// nothing to compare it with.
-bool MotionAnalyzer::find_motion(const ImageView& picture, const ImageView& film,
-                                 const Cadence::Step& step, int64_t running_ns) {
-  if (!frame_.place.is_known) {
-    reset_measuring();
-    return false;
+  if (!is_near(film, next_->area, factor)) next_->begin(film);
+  const ImageView view = part_of(picture, next_->area);
+  next_frame_.clear_motion();
+  next_frame_.interval_ns = frame_.interval_ns;
+  next_frame_.shown_for_ns = frame_.shown_for_ns;
+  read(*next_, view);
+  const bool is_next_compared = compare(*next_, view, next_frame_, next_frame_.dominant);
+  const Eigen::Vector2d step_px = mean_step_of(next_frame_.points) / factor;
+  if (is_next_compared) {
+    const bool moves = next_frame_.dominant != 0 || step_px.norm() > kFlickers_px;
+    area_finder_.tell(moves, step_px.x(), step_px.y(), running_ns);
   }
-  take(step);
-  const bool is_compared = compare(film);
-  if (finds_area()) tell_of_candidate(running_ns);
-  return !begins_in_part(picture) && is_compared;
+  // A film whose camera moves is felt as an object, wrongly; most of those in it have been born
+  // after two pairs.
+  const bool shows_as_much = is_next_compared
+                                 ? next_frame_.dominant != 0 || frame_.dominant == 0 ||
+                                       (step_px.norm() > kRests_px && next_->pairs > 1) ||
+                                       next_->pairs >= std::min(kSettles_pairs, now_->pairs)
+                                 : !is_compared;
+  if (area_finder_.is_guess() || film != film_in(picture) || !shows_as_much) return may_be_felt;
+  std::swap(now_, next_);
+  next_->area = {};
+  next_frame_.place = frame_.place;
+  next_frame_.place.area = now_->area;
+  std::swap<MeasuredFrame>(frame_, next_frame_);
+  page_scroll_.reset();
+  return is_next_compared && frame_.place.is_known;
 }
 
 /// Reads the picture and finds what moves. Returns false, and finds nothing, while it waits.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
-  const PicturePart area = area_of(picture);
-  enter(area, picture);
-  const ImageView film = part_of(picture, area);
-  const Likeness likeness = read(film, cadence_.would_wait(running_ns));
+  enter(picture);
+  const ImageView film = part_of(picture, now_->area);
+  const Likeness likeness = read(*now_, film, cadence_.would_wait(running_ns));
   if (finds_area()) look_for_film(picture, film, running_ns);
   const bool has_before = likeness != Likeness::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (has_before) {
     step = cadence_.see(likeness, running_ns,
-                        by_points() ? RepeatedPicture::Repeats() : reduced_.repeats());
+                        by_points() ? RepeatedPicture::Repeats() : now_->reduced.repeats());
   } else {
-    motion_.reset();
+    now_->motion.reset();
   }
   if (step.waits && frame_.place.is_known) {
     frame_.picture = Likeness::kWaiting;
     return false;
   }
   frame_.clear_motion();
-  if (find_motion(picture, film, step, running_ns) && has_before) {
+  take(step);
+  if (!frame_.place.is_known) {  // what was there may have moved
+    now_->motion.reset();
+    now_->pairs = 0;
+  }
+  bool is_compared = compare(*now_, film, frame_, frame_.felt_object);
+  if (finds_area()) is_compared = follow_film(picture, is_compared, running_ns);
+  if (is_compared && has_before) {
     frame_.picture = likeness;
   } else {
     cadence_.cut(running_ns);
-    if (!by_points()) reduced_.cut();
+    if (!by_points()) now_->reduced.cut();
     frame_.clear_motion();
   }
   return true;
 }
 
-void MotionAnalyzer::reset_measuring() {
-  tracker_.reset();
-  reduced_.reset();
-  motion_.reset();
-}
-
 void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   renderer_.configure(settings);  // validates all of them
-  tracker_.configure(settings.tracker);
+  now_->tracker.configure(settings.tracker);
+  next_->tracker.configure(settings.tracker);
   const bool was_by_points = by_points();
-  if (settings.area.kind != settings_.area.kind) area_finder_.reset();
+  if (settings.area.kind != settings_.area.kind) {
+    area_finder_.reset();
+    frame_.place = {};
+  }
   settings_ = settings;
   // What will be used next has not seen the last picture.
-  if (was_by_points != by_points()) reset_measuring();
+  if (was_by_points != by_points()) now_->reset();
 }
 
 const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns,
@@ -197,7 +233,7 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
 void MotionAnalyzer::reset() {
   area_finder_.reset();
   page_scroll_.reset();
-  reset_measuring();
+  frame_.place = {};
   cadence_.reset();
   last_running_ns_.reset();
   anew_ = true;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "core/analysis/force_renderer.h"
@@ -25,11 +26,18 @@ namespace spidar {
 /// A frame that repeats the previous picture does not show whether anything moves. The frame waits
 /// (Likeness::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
+///
+/// Where AreaFinder sees or suspects that the film is elsewhere in the picture than where it is
+/// measured, that part is measured beside it, and takes its place as soon as it is sure and shows
+/// as much, so that there is no gap.
 class MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
   explicit MotionAnalyzer(const AnalyzerSettings& settings = {})
-      : settings_(settings), tracker_(settings.tracker), renderer_(settings) {}
+      : settings_(settings),
+        now_(std::make_unique<Measured>(settings.tracker, next_id_)),
+        next_(std::make_unique<Measured>(settings.tracker, next_id_)),
+        renderer_(settings) {}
 
   /// Applies from the next frame on. The points stay, and so does the scale of the controller
   /// unless its law changes. Throws std::invalid_argument when a setting is out of range, and then
@@ -55,28 +63,49 @@ class MotionAnalyzer {
   void reset();
 
  private:
+  /// A part of the pictures in which motion is found.
+  struct Measured {
+    Measured(const TrackerSettings& settings, const std::shared_ptr<uint32_t>& next_id)
+        : tracker(settings), motion(next_id) {}
+    void begin(const PicturePart& part) {
+      area = part;
+      reset();
+    }
+    void reset() {
+      tracker.reset();
+      reduced.reset();
+      motion.reset();
+      pairs = 0;
+    }
+
+    PicturePart area;
+    ReducedFrame reduced;
+    OpenCvTracker tracker;   ///< for MotionKind::kMean
+    MotionEstimator motion;  ///< for all other kinds
+    int pairs = 0;           ///< of pictures that have been compared since reset()
+  };
+
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   bool finds_area() const { return settings_.area.kind == AreaSetting::Kind::kAuto; }
-  PicturePart area_of(const ImageView& picture);
-  void enter(const PicturePart& area, const ImageView& picture);
+  void enter(const ImageView& picture);
   void look_for_film(const ImageView& picture, const ImageView& film, int64_t running_ns);
-  void tell_of_candidate(int64_t running_ns);
-  bool begins_in_part(const ImageView& picture);
-  Likeness read(const ImageView& film, bool may_wait = false);
+  Likeness read(Measured& measured, const ImageView& film, bool may_wait = false) const;
   void take(const Cadence::Step& step);
-  bool compare(const ImageView& film);
-  bool find_motion(const ImageView& picture, const ImageView& film, const Cadence::Step& step,
-                   int64_t running_ns);
+  bool compare(Measured& measured, const ImageView& film, MeasuredFrame& frame,
+               uint32_t felt) const;
+  PicturePart film_in(const ImageView& picture) const;
+  bool follow_film(const ImageView& picture, bool is_compared, int64_t running_ns);
   bool measure(const ImageView& picture, int64_t running_ns);
-  void reset_measuring();
 
   AnalyzerSettings settings_;
   AreaFinder area_finder_;
   PageScroll page_scroll_;
   PaddedImage whole_;  ///< the reduced picture, where the film is a part of it
-  ReducedFrame reduced_;
-  OpenCvTracker tracker_;   ///< for MotionKind::kMean
-  MotionEstimator motion_;  ///< for all other kinds
+  /// Of the objects in both, so that an id means one object when the area changes, too.
+  std::shared_ptr<uint32_t> next_id_ = std::make_shared<uint32_t>(1);
+  std::unique_ptr<Measured> now_;
+  std::unique_ptr<Measured> next_;  ///< beside it; without an area: nothing is
+  MeasuredFrame next_frame_;
   Cadence cadence_;
   ForceRenderer renderer_;
   std::optional<int64_t> last_running_ns_;

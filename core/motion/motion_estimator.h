@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/field/block_field.h"
@@ -20,6 +22,9 @@ namespace spidar {
 /// allocate after the first frames of a size.
 class MotionEstimator {
  public:
+  explicit MotionEstimator(std::shared_ptr<uint32_t> next_id = std::make_shared<uint32_t>(1))
+      : objects_(std::move(next_id)) {}
+
   /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
   /// `interval_ns` > 0 is the time since the previous one. Returns false when there is nothing to
   /// compare with: the first picture, another size, or a cut. `felt` is the object that was felt

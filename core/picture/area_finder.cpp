@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include <opencv2/imgproc.hpp>
+
 #include "core/picture/opencv.h"
 #include "core/picture/repeated_picture.h"
 
@@ -22,12 +24,12 @@ constexpr uint8_t kChanged_grey = 3;
 constexpr uint8_t kRise = 8;
 constexpr uint8_t kLasts = 2 * kRise - 2;
 constexpr uint8_t kMaxLevel = 3 * kRise;
+/// While nothing tells of a film in a part of the picture, one of so many pictures is looked at.
+constexpr int kLookEvery = 8;
 /// What changes between the first two pictures may be lasting.
 constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
 
 constexpr int kAreaCell_px = 8;
-/// Lasting pixels of a cell that has them: one line of it.
-constexpr int kLineOfCell = kAreaCell_px;
 
 /// A side is straight if on so much of its length what changes begins within two lines of pixels.
 /// The sides of a disc of 80 px have 0.2 and 0.3.
@@ -61,13 +63,6 @@ bool is_same(int a, int b) {
   return std::abs(a - b) <= kStaysWithin_px;
 }
 
-/// The sum of eight bytes, below 256.
-int sum_of_8(const uint8_t* bytes) {
-  uint64_t eight;
-  std::memcpy(&eight, bytes, sizeof eight);
-  return static_cast<int>((eight * 0x0101010101010101u) >> 56);
-}
-
 bool contains(const PicturePart& outer, const PicturePart& inner) {
   return inner.x >= outer.x - kStaysWithin_px && inner.y >= outer.y - kStaysWithin_px &&
          inner.x + inner.width <= outer.x + outer.width + kStaysWithin_px &&
@@ -83,96 +78,76 @@ bool is_same(const PicturePart& a, const PicturePart& b) {
   return contains(a, b) && contains(b, a);
 }
 
-/// Whether most cells at each of the four sides of the picture change: all of it is the film.
-bool reach_all_borders(const std::vector<uint8_t>& cells, int columns, int rows) {
-  const auto reach = [&](int first, int step, int count) {
-    int lasting = 0;
-    for (int i = 0; i < count; ++i) {
-      lasting += cells[static_cast<size_t>(first + i * step)] >= kLineOfCell;
-    }
-    return lasting > kMost * count;
-  };
-  return reach(0, 1, columns) && reach((rows - 1) * columns, 1, columns) &&
-         reach(0, columns, rows) && reach(columns - 1, columns, rows);
+cv::Mat mat_of(PaddedImage& map) {
+  return {map.height(), map.width(), CV_8U, map.row(0), static_cast<size_t>(map.stride())};
+}
+
+/// In how many pixels of a part, a map is set.
+int set_in(const PaddedImage& map, const PicturePart& part) {
+  return cv::countNonZero(const_mat(part_of(map.view(), part)));
+}
+
+/// In how many places along a part, a map is set at either of two columns or rows.
+int set_along(const PaddedImage& map, const PicturePart& part, bool is_column, int at, int or_at) {
+  if (std::min(at, or_at) < 0 || std::max(at, or_at) >= (is_column ? map.width() : map.height())) {
+    return 0;
+  }
+  const ptrdiff_t next = is_column ? map.stride() : 1, to_line = is_column ? 1 : map.stride();
+  const uint8_t* const begin = map.row(0) + (is_column ? part.y : part.x) * next;
+  int set = 0;
+  for (int k = 0; k < (is_column ? part.height : part.width); ++k) {
+    set += (begin[k * next + at * to_line] | begin[k * next + or_at * to_line]) != 0;
+  }
+  return set;
 }
 
 }  // namespace
 
 void AreaFinder::begin(const ImageView& picture) {
+  *this = {};
   width_ = picture.width;
   height_ = picture.height;
-  stride_ = (width_ + 15) / 16 * 16;
-  const size_t size = static_cast<size_t>(stride_) * static_cast<size_t>(height_);
-  before_.assign(size, 0);
-  changed_.assign(size, 0);
-  lasting_.assign(size, 0);
-  columns_ = (width_ + kAreaCell_px - 1) / kAreaCell_px;
-  rows_ = (height_ + kAreaCell_px - 1) / kAreaCell_px;
-  cells_.assign(static_cast<size_t>(columns_) * static_cast<size_t>(rows_), 0);
-  open_.reserve(cells_.size());
-  is_page_ = scrolls_ = skips_ = false;
-  stayed_ = crossed_ = lasting_pixels_ = 0;
-  skipped_ = 0;
-  area_.reset();
-  searches_since_ns_.reset();
+  const auto cells = [](int px) { return (px + kAreaCell_px - 1) / kAreaCell_px; };
+  cells_.resize(cells(width_), cells(height_));
+  for (PaddedImage* const map : {&now_, &before_, &changed_, &levels_, &lasting_}) {
+    map->resize(cells_.width() * kAreaCell_px, cells_.height() * kAreaCell_px);
+    mat_of(*map).setTo(0);
+  }
+  keep(picture);
+}
+
+void AreaFinder::keep(const ImageView& picture) {
+  for (int y = 0; y < height_; ++y) std::copy_n(picture.at(0, y), width_, now_.row(y));
 }
 
 /// Compares the picture with the one before, and keeps it. False if it shows the same.
 bool AreaFinder::take(const ImageView& picture) {
   using cv::v_uint8x16;
-  const v_uint8x16 zero = cv::v_setzero_u8(), one = cv::v_setall_u8(1);
+  const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey), one = cv::v_setall_u8(1);
   const v_uint8x16 rise = cv::v_setall_u8(compared_ == 0 ? kFirstRise : kRise);
   const v_uint8x16 most = cv::v_setall_u8(kMaxLevel), lasts = cv::v_setall_u8(kLasts);
-  const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey + 1);
-  int changes = 0;
-  // Bytes that are stored may be anything, members of this object among them, but not these.
-  uint8_t* const before = before_.data();
-  uint8_t* const changed_now = changed_.data();
-  uint8_t* const levels = lasting_.data();
-  const int width = width_, stride = stride_;
-  const ptrdiff_t next = picture.stride_bytes;
-  alignas(16) uint8_t sixteen[16];
-  const int lasting_before = std::exchange(lasting_pixels_, 0);
-  for (int row = 0; row < rows_; ++row) {
-    const int below = std::min((row + 1) * kAreaCell_px, height_);
-    for (int x = 0; x < width; x += 16) {
-      v_uint8x16 changing = zero, lasting = zero;  // lines of the cells, for each column of pixels
-      const uint8_t* from = picture.at(x, row * kAreaCell_px);
-      ptrdiff_t at = row * kAreaCell_px * stride + x;
-      for (int y = row * kAreaCell_px; y < below; ++y) {
-        const uint8_t* pixels = from;
-        if (x + 16 > width) {
-          std::memset(sixteen, 0, sizeof sixteen);
-          std::memcpy(sixteen, from, static_cast<size_t>(width - x));
-          pixels = sixteen;
-        }
-        const v_uint8x16 now = cv::v_load(pixels);
-        const v_uint8x16 changed = cv::v_absdiff(now, cv::v_load(before + at)) >= grey;
-        const v_uint8x16 had = cv::v_load(levels + at) - one;  // not below 0
-        const v_uint8x16 has = cv::v_min(had + (changed & rise), most);
-        cv::v_store(before + at, now);
-        cv::v_store(changed_now + at, changed);
-        cv::v_store(levels + at, has);
-        // What is true is 255, which is −1.
-        changing = cv::v_sub_wrap(changing, changed);
-        lasting = cv::v_sub_wrap(lasting, has >= lasts);
-        from += next;
-        at += stride;
-      }
-      cv::v_store(sixteen, changing);
-      changes += sum_of_8(sixteen) + sum_of_8(sixteen + kAreaCell_px);
-      cv::v_store(sixteen, lasting);
-      for (int k = 0; k < 2 && x / kAreaCell_px + k < columns_; ++k) {
-        const int count = sum_of_8(sixteen + k * kAreaCell_px);
-        cells_[static_cast<size_t>(row * columns_ + x / kAreaCell_px + k)] =
-            static_cast<uint8_t>(count);
-        lasting_pixels_ += count;
-      }
+  std::swap(now_, before_);
+  keep(picture);
+  const int width = width_;  // not a member: bytes that are stored may be anything
+  for (int y = 0; y < height_; ++y) {
+    const uint8_t *const now = now_.row(y), *const before = before_.row(y);
+    uint8_t *const changed = changed_.row(y), *const levels = levels_.row(y);
+    uint8_t* const lasting = lasting_.row(y);
+    for (int x = 0; x < width; x += 16) {  // maps are wider by more than that
+      const v_uint8x16 change = cv::v_absdiff(cv::v_load(now + x), cv::v_load(before + x)) > grey;
+      const v_uint8x16 had = cv::v_load(levels + x) - one;  // not below 0
+      const v_uint8x16 has = cv::v_min(had + (change & rise), most);
+      cv::v_store(changed + x, change);
+      cv::v_store(levels + x, has);
+      cv::v_store(lasting + x, has >= lasts);
     }
   }
+  const PicturePart all{0, 0, width_, height_};
+  const int changes = set_in(changed_, all);
   if (changes == 0) return false;
   ++compared_;
-  if (changes > kMost * width_ * height_) is_page_ = false;
+  if (state_ == State::kPage && changes > kMost * width_ * height_) state_ = State::kSearching;
+  const int lasting_before = std::exchange(lasting_pixels_, set_in(lasting_, all));
   // Of a picture that is shown again, an encoder changes little of what changes otherwise.
   const bool repeats = changes < double{RepeatedPicture::kFraction} * lasting_before &&
                        skipped_ < RepeatedPicture::kMaxAtOnce;
@@ -180,37 +155,30 @@ bool AreaFinder::take(const ImageView& picture) {
   return !repeats;
 }
 
-/// Adds all cells that are connected to this one, and marks them as taken.
-bool AreaFinder::grow(size_t cell, Candidate& candidate) {
-  int left = columns_, right = -1, top = rows_, bottom = -1;
-  candidate.cells = 0;
-  open_.clear();
-  open_.push_back(cell);
-  cells_[cell] = 0;
-  while (!open_.empty()) {
-    const int column = static_cast<int>(open_.back()) % columns_;
-    const int row = static_cast<int>(open_.back()) / columns_;
-    open_.pop_back();
-    ++candidate.cells;
-    left = std::min(left, column);
-    right = std::max(right, column);
-    top = std::min(top, row);
-    bottom = std::max(bottom, row);
-    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, rows_ - 1); ++y) {
-      for (int x = std::max(column - 1, 0); x <= std::min(column + 1, columns_ - 1); ++x) {
-        uint8_t& next = cells_[static_cast<size_t>(y * columns_ + x)];
-        if (next < kLineOfCell) continue;
-        next = 0;
-        open_.push_back(static_cast<size_t>(y * columns_ + x));
+/// Cells in which so many pixels change as a line of them has.
+void AreaFinder::count_cells() {
+  constexpr uint64_t kOnes = 0x0101010101010101u;
+  for (int row = 0; row < cells_.height(); ++row) {
+    for (int column = 0; column < cells_.width(); ++column) {
+      uint64_t pixels = 0;  // of each column of pixels
+      for (int y = row * kAreaCell_px; y < (row + 1) * kAreaCell_px; ++y) {
+        uint64_t line;
+        std::memcpy(&line, lasting_.row(y) + column * kAreaCell_px, sizeof line);
+        pixels += line & kOnes;
       }
+      cells_.row(row)[column] = (pixels * kOnes) >> 56 >= kAreaCell_px ? 255 : 0;
     }
   }
-  const int columns = right - left + 1, rows = bottom - top + 1;
-  candidate.part = {left * kAreaCell_px, top * kAreaCell_px,
-                    std::min(columns * kAreaCell_px, width_ - left * kAreaCell_px),
-                    std::min(rows * kAreaCell_px, height_ - top * kAreaCell_px)};
-  return columns >= kSmallest * columns_ && rows >= kSmallest * rows_ &&
-         candidate.cells >= kFilled * columns * rows;
+}
+
+/// Whether most cells at each of the four sides of the picture change: all of it is the film.
+bool AreaFinder::reach_all_borders() const {
+  const int columns = cells_.width(), rows = cells_.height();
+  const PicturePart all{0, 0, columns, rows};
+  const auto reach = [&](bool is_column, int at) {
+    return set_along(cells_, all, is_column, at, at) > kMost * (is_column ? rows : columns);
+  };
+  return reach(true, 0) && reach(true, columns - 1) && reach(false, 0) && reach(false, rows - 1);
 }
 
 /// The left (`is_column`) or upper side of what changes in `part`, or the right or lower one.
@@ -224,13 +192,13 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
   const int step = is_far ? -1 : 1;
   // A film that ends in the next cell, by less than a line of that.
   const int from = std::clamp(outside - kStaysWithin_px * step, 0, across - 1);
-  const ptrdiff_t inwards = is_column ? step : step * stride_;
+  const ptrdiff_t inwards = is_column ? step : step * lasting_.stride();
   std::array<int, kNear_px + 1> begins{};
   for (int k = begin; k < begin + length; ++k) {
     const int x = is_column ? from : k, y = is_column ? k : from;
-    const uint8_t* at = &lasting_[static_cast<size_t>(y * stride_ + x)];
+    const uint8_t* at = lasting_.row(y) + x;
     for (size_t i = 0; i < begins.size(); ++i, at += inwards) {
-      if (at[0] < kLasts || at[inwards] < kLasts) continue;
+      if (at[0] == 0 || at[inwards] == 0) continue;
       ++begins[i];
       break;
     }
@@ -246,13 +214,10 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
   side.at = from + at * step;
   const int beside = is_far ? across - 1 - side.at : side.at;
   side.is_border = (is_far ? across - 1 - outside : outside) == 0 && beside <= kStaysWithin_px + 1;
-  int changed = 0;
-  for (int k = begin; k < begin + length; ++k) {
-    const int x = is_column ? side.at : k, y = is_column ? k : side.at;
-    const uint8_t* const now = &changed_[static_cast<size_t>(y * stride_ + x)];
-    changed += (now[0] | now[inwards]) != 0;
-  }
-  side.is_straight = together >= kStraight * length && changed >= kStillChanges * together;
+  const int changed = set_along(changed_, part, is_column, side.at, side.at + step);
+  const bool is_line = together >= kStraight * length;
+  side.is_straight = is_line && changed >= kStillChanges * together;
+  side.is_left = is_line && !side.is_straight;
   return side;
 }
 
@@ -282,14 +247,24 @@ bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   return true;
 }
 
-/// The rectangle in which most changes.
-std::optional<AreaFinder::Candidate> AreaFinder::best_candidate() {
+/// The rectangle in which most changes, of those that are connected.
+std::optional<AreaFinder::Candidate> AreaFinder::best_candidate() const {
   std::optional<Candidate> best;
-  if (reach_all_borders(cells_, columns_, rows_)) return best;
-  for (size_t i = 0; i < cells_.size(); ++i) {
-    if (cells_[i] < kLineOfCell) continue;
+  if (reach_all_borders()) return best;
+  cv::Mat labels, boxes, middles;
+  const int parts =
+      cv::connectedComponentsWithStats(const_mat(cells_.view()), labels, boxes, middles);
+  for (int i = 1; i < parts; ++i) {
+    const int* const box = boxes.ptr<int>(i);
+    const int columns = box[cv::CC_STAT_WIDTH], rows = box[cv::CC_STAT_HEIGHT];
+    const int x = box[cv::CC_STAT_LEFT] * kAreaCell_px, y = box[cv::CC_STAT_TOP] * kAreaCell_px;
     Candidate candidate;
-    if (!grow(i, candidate) || (best && candidate.cells <= best->cells)) continue;
+    candidate.cells = box[cv::CC_STAT_AREA];
+    if (columns < kSmallest * cells_.width() || rows < kSmallest * cells_.height()) continue;
+    if (candidate.cells < kFilled * columns * rows) continue;
+    if (best && candidate.cells <= best->cells) continue;
+    candidate.part = {x, y, std::min(columns * kAreaCell_px, width_ - x),
+                      std::min(rows * kAreaCell_px, height_ - y)};
     if (has_straight_sides(candidate)) best = candidate;
   }
   return best;
@@ -308,149 +283,144 @@ bool AreaFinder::confirm(const Candidate& candidate) {
     stayed_ = 0;
   }
   pending_.part = candidate.part;  // the more it has changed, the more exact
-  return ++stayed_ >= kStays;
+  for (size_t i = 0; i < 4; ++i) pending_.sides[i].is_left = candidate.sides[i].is_left;
+  // Where an object was in the first two pictures, its sides seem to stay in the next one, too.
+  return ++stayed_ >= kStays && compared_ > kStays;
 }
 
-/// Of how many sides most of what is beside them reaches `least` in `map`.
-int AreaFinder::crossed_sides(const std::vector<uint8_t>& map, uint8_t least) const {
+/// Beside how many sides most of a map is set.
+int AreaFinder::crossed_sides(const PaddedImage& map) const {
   int crossed = 0;
   for (size_t i = 0; i < sides_.size(); ++i) {
     if (sides_[i].is_border) continue;
     const bool is_column = i < 2;
-    const int beside = i % 2 != 0 ? kBeside_px : -kBeside_px;
-    const int at = sides_[i].at + beside;
-    if (at < 0 || at >= (is_column ? width_ : height_)) continue;
-    const int begin = is_column ? area_->y : area_->x;
-    const int length = is_column ? area_->height : area_->width;
-    int reached = 0;
-    for (int k = begin; k < begin + length; ++k) {
-      reached += map[static_cast<size_t>(is_column ? k * stride_ + at : at * stride_ + k)] >= least;
-    }
-    crossed += reached > kMost * length;
+    const int at = sides_[i].at + (i % 2 != 0 ? kBeside_px : -kBeside_px);
+    const int length = is_column ? part_.height : part_.width;
+    crossed += set_along(map, part_, is_column, at, at) > kMost * length;
   }
   return crossed;
 }
 
-void AreaFinder::search(int64_t running_ns) {
-  if (area_) searches_from_ = *area_;
-  area_.reset();
+/// Looks for the film anew.
+void AreaFinder::search(State state, int64_t running_ns) {
+  state_ = state;
+  since_ns_ = running_ns;
   stayed_ = 0;
   // What has changed before was elsewhere.
-  std::fill(lasting_.begin(), lasting_.end(), uint8_t{0});
-  searches_since_ns_ = running_ns;
+  mat_of(levels_).setTo(0);
+  mat_of(lasting_).setTo(0);
 }
 
-int AreaFinder::lasting_cells(const PicturePart& part) const {
-  int count = 0;
-  for (int y = part.y + kAreaCell_px / 2; y < part.y + part.height; y += kAreaCell_px) {
-    for (int x = part.x + kAreaCell_px / 2; x < part.x + part.width; x += kAreaCell_px) {
-      count += lasting_[static_cast<size_t>(y * stride_ + x)] >= kLasts;
-    }
-  }
-  return count;
-}
-
-/// What becomes of the area that is known.
+/// What becomes of the film that is found.
 void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confirmed,
                         int64_t running_ns) {
-  if (!candidate || is_same(candidate->part, *area_)) {
-    active_ns_ = running_ns;
+  if (!candidate || is_same(candidate->part, part_)) {
+    since_ns_ = running_ns;
     return;
   }
   // Of another film, or of a part of this one, while the rest of it still changes.
-  const bool is_part = contains(*area_, candidate->part);
-  const int others = lasting_cells(candidate->part);
-  const int own = lasting_cells(*area_) - (is_part ? others : 0);
-  if (contains(candidate->part, *area_) || kPartsThatGoOn * own > others) active_ns_ = running_ns;
-  if (is_confirmed && running_ns - active_ns_ >= (is_part ? kSearch_ns : kRests_ns)) {
+  const bool is_part = contains(part_, candidate->part);
+  const int others = set_in(lasting_, candidate->part);
+  const int own = set_in(lasting_, part_) - (is_part ? others : 0);
+  if (contains(candidate->part, part_) || kPartsThatGoOn * own > others) since_ns_ = running_ns;
+  if (is_confirmed && running_ns - since_ns_ >= (is_part ? kSearch_ns : kRests_ns)) {
     settle(*candidate, running_ns);
   }
 }
 
 void AreaFinder::settle(const Candidate& candidate, int64_t running_ns) {
-  area_ = candidate.part;
+  state_ = State::kFound;
+  part_ = candidate.part;
   sides_ = candidate.sides;
-  active_ns_ = running_ns;
+  since_ns_ = running_ns;
   crossed_ = 0;
-  searches_since_ns_.reset();
-  is_page_ = false;
 }
 
 /// Whether most of what begins at a side changes in the newest picture, and less beside it.
 bool AreaFinder::stands(const Side& side, const PicturePart& part, bool is_column,
                         bool is_far) const {
-  const int begin = is_column ? part.y : part.x;
-  const int length = is_column ? part.height : part.width;
-  const int inwards = is_far ? -1 : 1;
-  int inside = 0, outside = 0;
-  for (int k = begin; k < begin + length; ++k) {
-    const auto changes = [&](int at) {
-      return changed_[static_cast<size_t>(is_column ? k * stride_ + at : at * stride_ + k)] != 0;
-    };
-    inside += changes(side.at) || changes(side.at + inwards);
-    outside += changes(side.at - kBeside_px * inwards);
-  }
+  const int inwards = is_far ? -1 : 1, length = is_column ? part.height : part.width;
+  const int beside = side.at - kBeside_px * inwards;
+  const int inside = set_along(changed_, part, is_column, side.at, side.at + inwards);
+  const int outside = set_along(changed_, part, is_column, beside, beside);
   return side.is_straight && inside > kMost * kStraight * length && outside < kMost * inside;
 }
 
-void AreaFinder::tell(double across_px, double down_px, int64_t running_ns) {
-  if (stayed_ == 1) moved_px_ = {};
-  if (stayed_ < 2) return;
+void AreaFinder::tell(bool moves, double across_px, double down_px, int64_t running_ns) {
+  if (!moves) stayed_ = std::min(stayed_, 1);  // what only flickers has no sides
+  if (!is_guess() || stayed_ < 2) return;
+  if (stayed_ == 2) moved_px_ = {};
   moved_px_[0] += across_px;
   moved_px_[1] += down_px;
   for (size_t axis = 0; axis < 2; ++axis) {
     if (std::abs(moved_px_[axis]) < kMoves_px) continue;
-    bool shows = false, moves = false;
+    bool shows = false, stays = true;
     for (size_t i = 2 * axis; i < 2 * axis + 2; ++i) {
       const Side& side = pending_.sides[i];
       if (side.is_border) continue;
+      if (side.is_left) stayed_ = 0;  // it is that of an object
       shows = true;
-      moves |= !stands(side, pending_.part, axis == 0, i % 2 != 0);
+      stays = stays && stands(side, pending_.part, axis == 0, i % 2 != 0);
     }
-    if (shows && !moves) return settle(pending_, running_ns);
+    if (shows && stays) return settle(pending_, running_ns);
+  }
+}
+
+/// All of the picture changes: it is the film, or the film between blurred copies of itself.
+void AreaFinder::look_for_copies(const ImageView& picture, int64_t running_ns) {
+  if (state_ == State::kFound || (copies_ns_ && running_ns - *copies_ns_ < kCopies_ns)) return;
+  copies_ns_ = running_ns;
+  const std::optional<PicturePart> found = sharp_sides_.find(picture);
+  missed_ = found ? 0 : missed_ + 1;
+  const bool was_between = state_ == State::kBetweenCopies;
+  const auto differs = [](int a, int b) { return std::abs(a - b) > kAreaCell_px; };
+  if (found && (!was_between || differs(found->x, part_.x) || differs(found->y, part_.y))) {
+    state_ = State::kBetweenCopies;
+    part_ = *found;
+  } else if (was_between && missed_ > 1) {
+    state_ = State::kWhole;
   }
 }
 
 void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls) {
   if (picture.width != width_ || picture.height != height_) {
-    begin(picture);
-    take(picture);
-    std::fill(lasting_.begin(), lasting_.end(), uint8_t{0});
-    compared_ = 0;
-    return;
+    return begin(picture);
   }
-  const bool expects = compared_ <= 2 * kStays || searches_since_ns_ || stayed_ > 0 || scrolls_;
-  skips_ = !expects && !area_ && !scrolls && !skips_;
-  if (skips_) return;
+  const bool is_new = compared_ <= 2 * kStays;
+  const bool is_quiet = area() ? state_ == State::kBetweenCopies : stayed_ == 0 && !is_searching();
+  passed_ = is_quiet && !is_new && !scrolls ? (passed_ + 1) % kLookEvery : 0;
+  if (passed_ > 0) return;
   if (!take(picture) && !scrolls) return;
   const bool has_scrolled = std::exchange(scrolls_, scrolls);
-  if (scrolls && has_scrolled) {
-    search(running_ns);
-    is_page_ = true;
-  }
+  if (scrolls && has_scrolled) search(State::kPage, running_ns);
   if (scrolls) return;
-  if (area_ && crossed_sides(changed_, 255) > crossed_sides(lasting_, kLasts)) search(running_ns);
-  if (area_) {
-    crossed_ = crossed_sides(lasting_, kLasts) >= 2 ? crossed_ + 1 : 0;
-    if (crossed_ >= kStays) area_.reset();
+  if (state_ == State::kFound) {
+    const int crossed = crossed_sides(lasting_);
+    if (crossed_sides(changed_) > crossed) {
+      search(State::kSearching, running_ns);
+    } else {
+      crossed_ = crossed >= 2 ? crossed_ + 1 : 0;
+      if (crossed_ >= kStays) state_ = State::kWhole;
+    }
   }
-  const bool is_due = compared_ <= 2 * kStays || searches_since_ns_ || (!area_ && stayed_ > 0);
-  if (!is_due && compared_ % kStays != 0) return;
+  if (state_ == State::kFound && !is_new && compared_ % kStays != 0) return;
+  count_cells();
+  if (state_ == State::kBetweenCopies || reach_all_borders()) look_for_copies(picture, running_ns);
+  if (state_ == State::kBetweenCopies) return;
   const std::optional<Candidate> candidate = best_candidate();
   if (!candidate) stayed_ = 0;
   const bool is_confirmed = candidate && confirm(*candidate);
-  if (area_) return follow(candidate, is_confirmed, running_ns);
-  const int64_t searched_ns = running_ns - searches_since_ns_.value_or(running_ns);
-  const bool has_searched = searched_ns >= kSearch_ns;
+  if (state_ == State::kFound) return follow(candidate, is_confirmed, running_ns);
+  const bool searches = is_searching();
+  const int64_t searched_ns = searches ? running_ns - since_ns_ : 0;
   // All that moves while a page does is no film.
-  const bool may_be_page = searches_since_ns_ && !has_searched && candidate &&
-                           candidate->part != searches_from_ &&
-                           contains(candidate->part, searches_from_);
+  const bool may_be_page = searches && searched_ns < kSearch_ns && candidate &&
+                           candidate->part != part_ && contains(candidate->part, part_);
   if (is_confirmed && !may_be_page) {
     settle(*candidate, running_ns);
-  } else if (searched_ns >= (is_page_ ? kRests_ns : kSearch_ns)) {
-    searches_since_ns_.reset();
-    is_page_ = false;
+  } else if (searched_ns >= (state_ == State::kPage ? kRests_ns : kSearch_ns)) {
+    search(State::kWhole, running_ns);
+    compared_ = 0;
   }
 }
 

@@ -7,10 +7,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "core/picture/film_area.h"
 #include "core/picture/image_view.h"
+#include "core/picture/padded_image.h"
+#include "core/picture/sharp_sides.h"
 
 namespace spidar {
 
@@ -22,7 +23,8 @@ namespace spidar {
 /// notification or the noise of one coded picture does not count.
 ///
 /// A rectangle is a film when it has stayed for kStays pictures, or when what is in it moves and
-/// its sides do not: those of an object move with it. Until then, the film is all of the picture.
+/// its sides do not: those of an object move with it. Until then, it is a guess. Where all of the
+/// picture changes, the film may lie between blurred copies of itself (SharpSides).
 ///
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
 /// is therefore kept until something crosses its sides: another film, or a page that moves. Then
@@ -31,7 +33,8 @@ namespace spidar {
 /// the picture changes, or nothing has scrolled for kRests_ns. A single picture that is the one
 /// before, scrolled, is left out: a film without noise may have it.
 ///
-/// For one thread at a time. Allocates only when the size changes.
+/// For one thread at a time. Allocates when the size changes, and for what moves before a picture
+/// at rest.
 class AreaFinder {
  public:
   /// Takes the next picture, reduced to 8 bits; one that shows the previous one again changes
@@ -39,41 +42,51 @@ class AreaFinder {
   void look(const ImageView& picture, int64_t running_ns, bool scrolls = false);
 
   /// Px of the reduced picture; nothing: the film is all of it.
-  const std::optional<PicturePart>& area() const { return area_; }
-  /// It is not known where the film is: what is around it moves, or has just changed.
-  bool is_searching() const { return scrolls_ || searches_since_ns_.has_value(); }
-  /// What may be the film, while all of the picture is taken for it.
-  std::optional<PicturePart> candidate() const {
-    if (area_ || is_searching() || stayed_ == 0) return {};
-    return pending_.part;
+  std::optional<PicturePart> area() const {
+    if (state_ == State::kFound || state_ == State::kBetweenCopies) return part_;
+    return std::nullopt;
   }
-  /// How far what is in candidate() has moved to the picture that was looked at last. That may show
-  /// that it is the film.
-  void tell(double across_px, double down_px, int64_t running_ns);
+  /// It is not known where the film is: what is around it moves, or has just changed.
+  bool is_searching() const {
+    return scrolls_ || state_ == State::kSearching || state_ == State::kPage;
+  }
+  /// The area or, while there is none, what may be one; nothing: all of the picture.
+  std::optional<PicturePart> film() const { return is_guess() ? pending_.part : area(); }
+  /// Whether film() is not sure.
+  bool is_guess() const { return state_ == State::kWhole && stayed_ > 0 && !scrolls_; }
+  /// Whether anything in film() moves, while it is a guess, and how far, on an average, to the
+  /// picture that was looked at last. That may show that it is the film, or is not.
+  void tell(bool moves, double across_px, double down_px, int64_t running_ns);
   /// It searches in a page.
-  bool is_page() const { return is_page_ || scrolls_; }
+  bool is_page() const { return scrolls_ || state_ == State::kPage; }
 
   /// Another film begins.
-  void reset() {
-    width_ = 0;
-    area_.reset();
-    searches_since_ns_.reset();
-    is_page_ = scrolls_ = false;
-  }
+  void reset() { *this = {}; }
 
-  /// How many pictures a rectangle must stay before it is believed. An object that is a rectangle
-  /// with a texture that changes by kChanged_grey a picture moves by more than a pixel in them.
+  /// How many pictures a rectangle must stay before it is believed. An object that is a
+  /// rectangle with a texture that changes by kChanged_grey a picture moves by more than a pixel in
+  /// them.
   static constexpr int kStays = 4;
+  /// How often blurred copies beside the film are looked for.
+  static constexpr int64_t kCopies_ns = 1'000'000'000;
   static constexpr int64_t kSearch_ns = 1'000'000'000;
   /// For how long nothing must change in the film before another one replaces it; a part of it,
   /// with all that changes in it, does after kSearch_ns.
   static constexpr int64_t kRests_ns = 2'000'000'000;
 
  private:
+  enum class State : uint8_t {
+    kWhole,          ///< the film is all of the picture, or what is `pending_`
+    kFound,          ///< in `part_`
+    kBetweenCopies,  ///< in `part_`, beside blurred copies of itself
+    kSearching,      ///< it is not known, and was in `part_`
+    kPage,           ///< the same, in a page that scrolls, or has scrolled
+  };
   struct Side {
     int at = 0;             ///< first or last column or row that changes
     bool is_border = true;  ///< of the picture
     bool is_straight = false;
+    bool is_left = false;  ///< straight, but nothing has changed there in the newest picture
   };
   struct Candidate {
     PicturePart part;
@@ -83,43 +96,44 @@ class AreaFinder {
 
   void begin(const ImageView& picture);
   bool take(const ImageView& picture);
-  std::optional<Candidate> best_candidate();
-  bool grow(size_t cell, Candidate& candidate);
+  void keep(const ImageView& picture);
+  void count_cells();
+  bool reach_all_borders() const;
+  std::optional<Candidate> best_candidate() const;
   bool has_straight_sides(Candidate& candidate) const;
   Side side_of(const PicturePart& part, bool is_column, bool is_far) const;
   bool confirm(const Candidate& candidate);
   bool stands(const Side& side, const PicturePart& part, bool is_column, bool is_far) const;
   void settle(const Candidate& candidate, int64_t running_ns);
-  int crossed_sides(const std::vector<uint8_t>& map, uint8_t least) const;
+  int crossed_sides(const PaddedImage& map) const;
   void follow(const std::optional<Candidate>& candidate, bool is_confirmed, int64_t running_ns);
-  int lasting_cells(const PicturePart& part) const;
-  void search(int64_t running_ns);
+  void search(State state, int64_t running_ns);
+  void look_for_copies(const ImageView& picture, int64_t running_ns);
 
+  State state_ = State::kWhole;
+  PicturePart part_;
+  int64_t since_ns_ = 0;  ///< of the search; of a film that is found, when it changed last
+  // Of the pixels, with all of the cells at the right and at the bottom.
+  PaddedImage now_, before_;
+  PaddedImage changed_;  ///< 255 where the newest picture differs from the one before
+  PaddedImage levels_;   ///< see kRise
+  PaddedImage lasting_;  ///< 255 where a pixel changes lastingly
+  PaddedImage cells_;    ///< 255 where a line of a cell does
   int width_ = 0;
   int height_ = 0;
-  int stride_ = 0;  ///< of the maps below, a multiple of 16
-  std::vector<uint8_t> before_;
-  std::vector<uint8_t> changed_;  ///< 255 where the newest picture differs from the one before
-  std::vector<uint8_t> lasting_;  ///< how lastingly a pixel changes
-  int compared_ = 0;              ///< pictures that have changed
+  int compared_ = 0;  ///< pictures that have changed
   int lasting_pixels_ = 0;
-  size_t skipped_ = 0;  ///< repeated pictures in a row
-  bool skips_ = false;  ///< the last picture was not looked at
-  bool is_page_ = false;
+  size_t skipped_ = 0;    ///< repeated pictures in a row
+  int passed_ = 0;        ///< pictures in a row that were not looked at
   bool scrolls_ = false;  ///< the newest picture is the one before, scrolled
-  int columns_ = 0;
-  int rows_ = 0;
-  std::vector<uint8_t> cells_;  ///< number of lasting pixels in each
-  std::vector<size_t> open_;    ///< cells that wait in grow()
   Candidate pending_;
   int stayed_ = 0;                    ///< pictures in which it has been `pending_`
   std::array<double, 2> moved_px_{};  ///< what is in it, since then
-  std::optional<PicturePart> area_;
-  std::array<Side, 4> sides_;  ///< of `area_`
-  int crossed_ = 0;            ///< pictures in which something has lastingly crossed its sides
-  int64_t active_ns_ = 0;      ///< when the film changed last
-  std::optional<int64_t> searches_since_ns_;
-  PicturePart searches_from_;  ///< where the film was
+  std::array<Side, 4> sides_;         ///< of the film that is found
+  int crossed_ = 0;  ///< pictures in which something has lastingly crossed its sides
+  SharpSides sharp_sides_;
+  std::optional<int64_t> copies_ns_;  ///< when these were looked for last
+  int missed_ = 0;                    ///< times in a row that there were none
 };
 
 }  // namespace spidar

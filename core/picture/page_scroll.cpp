@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "core/picture/opencv.h"
+
 namespace spidar {
 namespace {
 
@@ -35,13 +37,12 @@ constexpr int kPlain_grey = 30;
 /// Whether the pixels of a patch's line differ by as much. Otherwise every edge of two plain parts
 /// would look like every other.
 bool varies(const uint8_t* line, const LumaSample& sample) {
-  int least = 255, most = 0;
-  for (int i = 0; i < PageScroll::kPatch_bytes; i += sample.bytes) {
-    const int word = sample.bytes == 1 ? line[i] : line[i] | line[i + 1] << 8;
-    least = std::min(least, word >> sample.shift);
-    most = std::max(most, word >> sample.shift);
+  if (sample.bytes == 1) {
+    const cv::v_uint8x16 pixels = cv::v_load(line);
+    return cv::v_reduce_max(pixels) - cv::v_reduce_min(pixels) > kPlain_grey;
   }
-  return most - least > kPlain_grey;
+  const cv::v_uint16x8 words = cv::v_load(reinterpret_cast<const ushort*>(line));
+  return (cv::v_reduce_max(words) - cv::v_reduce_min(words)) >> sample.shift > kPlain_grey;
 }
 
 uint64_t begin_of(const uint8_t* line) {

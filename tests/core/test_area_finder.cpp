@@ -4,11 +4,10 @@
 // be all of it.
 #include <ostream>
 
-#include "core/analysis/motion_analyzer.h"
 #include "core/picture/area_finder.h"
+#include "tests/core/screen_scenes.h"
 #include "tests/support/picture.h"
 #include "tests/support/test.h"
-#include "tests/support/texture.h"
 
 namespace spidar {
 
@@ -16,85 +15,8 @@ void PrintTo(const PicturePart& part, std::ostream* to) {
   *to << part.x << "," << part.y << "," << part.width << "," << part.height;
 }
 
-namespace test::area_finder_test {
+namespace test::screen::area_finder_test {
 namespace {
-
-/// A reduced picture.
-constexpr int kWidth = 427, kHeight = 240;
-constexpr int kRate = 25;
-constexpr int64_t kPicture_ns = 1'000'000'000 / kRate;
-
-using Part = PicturePart;
-/// Grey level of picture n at a position, px from the upper left corner of what it is about.
-using Scene = std::function<double(int n, double x, double y)>;
-
-/// A texture with linear interpolation between pixels, which takes a tenth of the time.
-class Sheet {
- public:
-  Sheet(uint32_t seed, double cell_px) {
-    const Texture texture(seed, cell_px);
-    for (int y = 0; y < kSide; ++y) {
-      for (int x = 0; x < kSide; ++x) grey_.push_back(static_cast<float>(texture.at(x, y)));
-    }
-  }
-  double at(double x, double y) const {
-    const double left = std::floor(x), top = std::floor(y), right = x - left, down = y - top;
-    const auto grey = [&](int across, int below) -> double {
-      const auto column = static_cast<size_t>(static_cast<int>(left) + across) % kSide;
-      const auto row = static_cast<size_t>(static_cast<int>(top) + below) % kSide;
-      return grey_[row * kSide + column];
-    };
-    return (1 - down) * ((1 - right) * grey(0, 0) + right * grey(1, 0)) +
-           down * ((1 - right) * grey(0, 1) + right * grey(1, 1));
-  }
-
- private:
-  static constexpr int kSide = 512;  // a power of 2: negative positions repeat it, too
-  std::vector<float> grey_;
-};
-
-const Sheet kWall(1, 10), kThing(2, 8), kPage(3, 4), kOther(4, 9);
-
-bool is_in(const Part& part, double x, double y) {
-  return x >= part.x && y >= part.y && x < part.x + part.width && y < part.y + part.height;
-}
-
-double pan(int n, double x, double y) {
-  return kWall.at(x + 2.2 * n, y + 0.7 * n);
-}
-
-/// A camera at rest, and a disc that goes around.
-double disc(int n, double x, double y) {
-  const double at_x = 100 + 50 * std::cos(0.1 * n), at_y = 70 + 30 * std::sin(0.1 * n);
-  if (std::hypot(x - at_x, y - at_y) < 25) return kThing.at(x - at_x, y - at_y);
-  return kWall.at(x, y);
-}
-
-/// Lines of words.
-double page(int, double x, double y) {
-  if (std::fmod(y + 1000, 8) < 3 || std::fmod(x + 1000, 37) < 4) return 240;
-  return kPage.at(x, y) > 128 ? 40 : 240;
-}
-
-Scene at_rest(const Scene& scene) {
-  return [=](int, double x, double y) { return scene(0, x, y); };
-}
-
-/// `film` in `part` of `around`.
-Scene within(const Scene& around, const Part& part, const Scene& film) {
-  return [=](int n, double x, double y) {
-    return is_in(part, x, y) ? film(n, x - part.x, y - part.y) : around(n, x, y);
-  };
-}
-
-/// `later` from picture `n` on.
-Scene then(int n, const Scene& first, const Scene& later) {
-  return [=](int now, double x, double y) { return now < n ? first(now, x, y) : later(now, x, y); };
-}
-
-Scene moved(const Scene& scene, const std::function<double(int n)>& down) {
-  return [=](int n, double x, double y) { return scene(n, x, y - down(n)); };
-}
 
 struct Seen {
   std::vector<std::optional<Part>> area;
@@ -151,7 +73,6 @@ void expect_whole(const Seen& seen, const std::string& what) {
   }
 }
 
-const Part kMiddle{90, 50, 240, 135};
 const Part kPlaces[] = {
     kMiddle,           {0, 0, 256, 144},  {427 - 171, 240 - 96, 171, 96}, {40, 30, 340, 190},
     {0, 50, 427, 160}, {100, 0, 200, 240}};
@@ -167,6 +88,58 @@ TEST(AreaFinder, FindsAFilmWhoseCameraMovesInWhateverRests) {
       expect_found(see(within(frame, part, pan), kRate + 15), part, name);
     }
   }
+}
+
+/// What television makes of a film of an upright telephone, and of one that is wider than it is.
+TEST(AreaFinder, FindsAFilmBetweenEnlargedCopiesOfItself) {
+  const Sheet detail(5, 2);
+  const auto film = [&](int n, double x, double y) { return detail.at(x + 2.2 * n, y + 0.7 * n); };
+  const auto enlarged = [&](int n, double x, double y) { return film(n, x / 3.2, y / 3.2); };
+  for (const Part& part : {Part{146, 0, 135, 240}, Part{0, 60, 427, 120}}) {
+    AreaFinder finder;
+    Picture picture(kWidth, kHeight);
+    for (int n = 0; n < 2 * kRate; ++n) {
+      picture.fill([&](double x, double y) { return within(enlarged, part, film)(n, x, y); });
+      finder.look(picture.view(), n * kPicture_ns);
+      if (n == 0) continue;
+      ASSERT_TRUE(finder.film()) << n;
+      EXPECT_FALSE(finder.is_guess());
+      // A side lies between two pixels outside and four inside of the seam.
+      for (const auto& [found, seam] :
+           {std::pair(finder.film()->x, part.x), std::pair(finder.film()->y, part.y)}) {
+        EXPECT_GE(found - seam, seam == 0 ? 0 : -2) << n;
+        EXPECT_LE(found - seam, seam == 0 ? 0 : 4) << n;
+      }
+    }
+    // What ends must not leave the film cut.
+    for (int n = 2 * kRate; n < 5 * kRate; ++n) {
+      picture.fill([&](double x, double y) { return film(n, x, y); });
+      finder.look(picture.view(), n * kPicture_ns);
+    }
+    EXPECT_FALSE(finder.film());
+  }
+}
+
+TEST(AreaFinder, FollowsAFilmFromAPageBetweenItsCopiesAndBack) {
+  const Sheet detail(5, 2);
+  const Part part{146, 0, 135, 240};
+  const auto film = [&](int n, double x, double y) { return detail.at(x + 2.2 * n, y + 0.7 * n); };
+  const auto enlarged = [&](int n, double x, double y) { return film(n, x / 3.2, y / 3.2); };
+  const Scene in_page = within(page, kMiddle, pan);
+  const int begins = 2 * kRate, ends = 4 * kRate;
+  const Scene scene = then(begins, in_page, then(ends, within(enlarged, part, film), in_page));
+  AreaFinder finder;
+  Picture picture(kWidth, kHeight);
+  for (int n = 0; n < 8 * kRate; ++n) {
+    picture.fill([&](double x, double y) { return scene(n, x, y); });
+    finder.look(picture.view(), n * kPicture_ns);
+    if (n != begins - 1 && n != ends - 1) continue;
+    EXPECT_FALSE(finder.is_searching()) << n;
+    ASSERT_TRUE(finder.film()) << n;
+    EXPECT_NEAR(finder.film()->x, n < begins ? kMiddle.x : part.x, 4) << n;
+  }
+  EXPECT_FALSE(finder.is_searching());
+  EXPECT_TRUE(is_near(finder.film(), kMiddle)) << testing::PrintToString(finder.film());
 }
 
 TEST(AreaFinder, FindsItBesideOtherThingsThatMove) {
@@ -252,17 +225,6 @@ TEST(AreaFinder, KnowsWhatElseScreensShow) {
   }
 }
 
-/// The sides of such an object are straight, but do not stay.
-Scene square(double speed, double across, double down) {
-  return [=](int n, double x, double y) {
-    const double at_x = 60 + speed * across * n, at_y = 80 + speed * down * n;
-    const bool is_inside = std::abs(x - at_x - 60) < 60 && std::abs(y - at_y - 45) < 45;
-    return is_inside ? kThing.at(x - at_x, y - at_y) : kWall.at(x, y);
-  };
-}
-
-constexpr std::pair<double, double> kDirections[] = {{1.0, 0.0}, {0.7, 0.7}, {0.0, -0.5}};
-
 TEST(AreaFinder, TakesNoObjectForAFilm) {
   for (const double speed : {0.3, 0.6, 1.0, 2.0, 5.0}) {
     for (const auto& [across, down] : kDirections) {
@@ -271,39 +233,6 @@ TEST(AreaFinder, TakesNoObjectForAFilm) {
       expect_whole(see(square(speed, across, down), 2 * kRate, 1), name + ", noise");
     }
   }
-}
-
-/// The motion that is felt, px/s.
-std::vector<Eigen::Vector2d> felt(const Scene& scene, AreaSetting::Kind area, int pictures) {
-  AnalyzerSettings settings;
-  settings.area.kind = area;
-  MotionAnalyzer analyzer(settings);
-  Picture picture(kWidth, kHeight);
-  std::vector<Eigen::Vector2d> felt;
-  for (int n = 0; n < pictures; ++n) {
-    picture.fill([&](double x, double y) { return scene(n, x, y); });
-    felt.push_back(analyzer.analyze(picture.view(), n * kPicture_ns).motion.velocity_px_s);
-  }
-  return felt;
-}
-
-/// From the first picture on, as in the whole picture.
-TEST(AreaFinder, HasNoShareInHowAnObjectIsFelt) {
-  for (const double speed : {2.0, 5.0}) {
-    for (const auto& [across, down] : kDirections) {
-      const Scene scene = square(speed, across, down);
-      const std::vector<Eigen::Vector2d> whole = felt(scene, AreaSetting::Kind::kWhole, kRate);
-      EXPECT_EQ(felt(scene, AreaSetting::Kind::kAuto, kRate), whole) << speed << " " << across;
-      EXPECT_FALSE(whole.back().isZero()) << speed << " " << across;
-    }
-  }
-}
-
-/// A camera that moves is not felt, except before it is known to be one.
-TEST(AreaFinder, KnowsSoonThatAFilmIsNoObject) {
-  const std::vector<Eigen::Vector2d> moved =
-      felt(within(page, kMiddle, pan), AreaSetting::Kind::kAuto, kRate);
-  for (size_t n = AreaFinder::kStays; n < moved.size(); ++n) EXPECT_TRUE(moved[n].isZero()) << n;
 }
 
 TEST(AreaFinder, KeepsAFilmWhoseCameraComesToRest) {
@@ -415,5 +344,5 @@ TEST(AreaFinder, StaysWithAFilmUntilItHasRestedForTwoSeconds) {
 }
 
 }  // namespace
-}  // namespace test::area_finder_test
+}  // namespace test::screen::area_finder_test
 }  // namespace spidar

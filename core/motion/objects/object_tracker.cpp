@@ -3,6 +3,7 @@
 #include "core/motion/objects/object_tracker.h"
 
 #include <numeric>
+#include <utility>
 
 #include "core/motion/layers/burned_in.h"
 
@@ -20,7 +21,7 @@ constexpr double kRemainingFraction = 0.5;
 
 }  // namespace
 
-ObjectTracker::ObjectTracker() {
+ObjectTracker::ObjectTracker(std::shared_ptr<uint32_t> next_id) : next_id_(std::move(next_id)) {
   lives_.reserve(kMaxObjects);
   region_keys_.reserve(RegionFinder::kMaxRegions);
   order_.reserve(RegionFinder::kMaxRegions);
@@ -336,7 +337,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   objects_.clear();
   for (ObjectLife& life : lives_) {
     if (!life.is_born() || life.is_layer) continue;
-    if (life.object.id == 0) life.object.id = next_id_++;
+    if (life.object.id == 0) life.object.id = (*next_id_)++;
     objects_.push_back(life.object);
     if (life.state != ObjectLife::State::kHidden) continue;
     objects_.back().relative_px_s.setZero();

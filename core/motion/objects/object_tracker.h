@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -172,11 +173,11 @@ struct FieldInFrame {
 /// invisible or at rest for kForgotten_s.
 class ObjectTracker {
  public:
-  ObjectTracker();
+  /// `next_id`: trackers that share it never give two objects the same id.
+  explicit ObjectTracker(std::shared_ptr<uint32_t> next_id = std::make_shared<uint32_t>(1));
 
   /// The result is valid until the next call and ordered by id. Ids count the objects that were in
-  /// a result, so that their number identifies the next one. `background` is in pixels of the
-  /// field's picture.
+  /// a result. `background` is in pixels of the field's picture.
   ///
   /// How an object rotates and grows is measured in each frame for the one that is `felt`, an id or
   /// 0, and for one of the others, by turns: the values of the rest stay. This bounds the time for
@@ -244,7 +245,7 @@ class ObjectTracker {
   std::vector<MovingObject> objects_;
   uint32_t felt_key_ = 0, turned_key_ = 0;  ///< objects whose rotation is measured; 0: none
   uint32_t next_key_ = 1;
-  uint32_t next_id_ = 1;
+  std::shared_ptr<uint32_t> next_id_;
 };
 
 }  // namespace spidar
