@@ -13,9 +13,9 @@ namespace spidar {
 /// JSON to write: members stay in the order in which they were added.
 using Json = nlohmann::ordered_json;
 
-/// The text of `json`: on a single line without a line end, or indented by `indent` if that is not
-/// negative. File names are bytes and JSON is UTF-8, so an invalid byte becomes U+FFFD. Numbers
-/// that are not finite become null.
+/// Serializes `json`: to a single line without a newline, or with `indent` spaces per level if
+/// `indent` is not negative. A file name may be invalid UTF-8; each invalid byte becomes U+FFFD.
+/// Numbers that are not finite become null.
 inline std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
@@ -26,16 +26,15 @@ Json json_array(const Vector& values) {
   return std::vector<double>(values.begin(), values.end());
 }
 
-/// JSON from outside. Its members are sorted by name, because keeping their order would take a time
-/// that grows with the square of their number.
+/// Untrusted JSON. Members are sorted by name: to keep their order would take quadratic time.
 using ReadJson = nlohmann::json;
 
-/// The greatest depth of nested arrays and objects in JSON from outside. HJIF has 12.
+/// The maximum nesting depth of untrusted JSON. HJIF needs 12.
 constexpr size_t kMaxJsonDepth = 64;
 
-/// Parses all JSON from outside. Refuses deeper JSON before any code recurses into its levels. The
-/// last of several members with one name counts. On an error returns a value that is_discarded(),
-/// and `why` explains it: "it is no JSON: …".
+/// Parses untrusted JSON. Rejects JSON nested deeper than kMaxJsonDepth before any recursive code
+/// runs. Of members with the same name, the last one is kept. On an error, returns a value that
+/// is_discarded() and sets `why` to the reason: "it is no JSON: …".
 ReadJson parse_json(std::string_view text, std::string& why);
 
 }  // namespace spidar

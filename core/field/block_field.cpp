@@ -15,8 +15,8 @@
 namespace spidar {
 namespace {
 
-// A pixel of the reduced picture covers one and a half of the base, so three in a row a, b, c
-// become the two (2 a + b) / 3 and (b + 2 c) / 3. In 2D the weights are 4, 2, 2 and 1 ninths.
+// A pixel of the reduced picture is 1.5 base pixels wide, so three adjacent pixels a, b, c become
+// two: (2 a + b) / 3 and (b + 2 c) / 3. In 2D the weights are 4/9, 2/9, 2/9 and 1/9.
 
 /// ninth(v) = (v + 4) / 9 for v ≤ 9 · 255, as a multiplication: 65536 / 9 rounded up is 7282, whose
 /// error of 2 / 65536 / 9 a unit is below 0.01 at 2299.
@@ -31,7 +31,7 @@ v_uint8x16 ninth(const v_uint16x8& low, const v_uint16x8& high) {
   return cv::v_pack(cv::v_mul_hi(low + four, factor), cv::v_mul_hi(high + four, factor));
 }
 
-/// The three columns of each third of 48 pixels, 16 bits each.
+/// 48 pixels, deinterleaved by column modulo 3 and widened to 16 bits.
 struct Thirds {
   std::array<v_uint16x8, 3> low;
   std::array<v_uint16x8, 3> high;
@@ -43,7 +43,7 @@ struct Thirds {
   }
 };
 
-/// Adds the columns of two of three rows in pairs.
+/// Computes one reduced row: weights `outer` twice and `middle` once, then reduces the columns.
 void store_pairs(const Thirds& outer, const Thirds& middle, uint8_t* to) {
   std::array<v_uint16x8, 3> low, high;
   for (size_t k = 0; k < 3; ++k) {
@@ -55,8 +55,8 @@ void store_pairs(const Thirds& outer, const Thirds& middle, uint8_t* to) {
   cv::v_store_interleave(to, left, right);
 }
 
-/// Computes the two rows of the reduced picture for three rows of the image. The last vectors end
-/// beyond the picture, where repeat_border() overwrites them.
+/// Reduces three rows of the image to two. The last vectors are stored partly in the padding, which
+/// repeat_border() overwrites.
 void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_t* lower) {
   static_assert(PaddedImage::kPad_px >= 32, "a vector ends within the padding");
   for (int x = 0; x < width; x += 32) {
@@ -67,11 +67,11 @@ void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_
   }
 }
 
-/// If more than this fraction of the difference is left, the gain may be chance. Where the camera
-/// pans, most of the difference is motion, whatever the light does.
+/// If compensation leaves more than this fraction of the difference, the improvement may be chance.
+/// In a pan, most of the difference is motion, whatever the light does.
 constexpr double kAlike = 0.9;
 
-/// Whether replacing the values of `before` makes it clearly more like `now`.
+/// Whether `table`, applied to `before`, clearly reduces the difference from `now`.
 bool makes_alike(const PaddedImage& before, const PaddedImage& now,
                  const std::array<uint8_t, 256>& table) {
   int64_t as_it_was = 0;
@@ -177,15 +177,15 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector2i;
 
-/// A block is lost if its difference from the best match is more than this fraction of the
+/// A block is lost if its difference from the best match exceeds this fraction of its contrast, the
 /// difference from its own mean: the match shows something else.
 constexpr double kFoundElsewhere = 0.5;
 /// The fraction of the textured blocks that are lost at a cut.
 constexpr double kLostAtCut = 0.8;
 /// The fraction of the textured blocks that are found again even where noise hides most others.
 constexpr double kBestFraction = 0.02;
-/// The largest mean difference by noise: that of σ = 5.3. With 8, another part of a synthetic
-/// texture, which looks alike everywhere, would count as the same part with noise.
+/// The largest mean absolute difference attributed to noise (σ = 5.3). With 8, two different parts
+/// of a uniform synthetic texture would pass for the same part with noise.
 constexpr int kMaxNoise_grey = 6;
 
 double squared(double value) {
@@ -227,8 +227,8 @@ void BlockField::reduce(const PaddedImage& base) {
   coarse_.now.repeat_border();
 }
 
-/// Nothing but the picture is known. Nothing from before a cut remains, so an analysis that begins
-/// before a cut continues behind it like any other.
+/// Starts a shot from the current picture alone. Because nothing from before the cut remains, the
+/// result after a cut does not depend on where the analysis began.
 void BlockField::begin() {
   has_picture_ = true;
   pictures_back_ = 0;
@@ -275,10 +275,10 @@ void BlockField::measure_noise() {
   noise_grey2_ = quantile(residuals_, 1 / 3.0);
 }
 
-/// After a cut, the best matches of all blocks are doubtful on the mean, and nearly all of the
-/// textured blocks are lost. In a picture that moves, however fast, some blocks still match. The
-/// difference of the best ones is noise, up to kMaxNoise_grey. The noise of both pictures is part
-/// of each difference, and that of one of them part of each contrast.
+/// After a cut, the best matches are doubtful on average, and nearly all textured blocks are lost.
+/// In a moving picture, however fast, some blocks still match. The difference of the best
+/// ones is taken as noise, up to kMaxNoise_grey. A difference contains the noise of both pictures,
+/// a contrast that of one picture.
 bool BlockField::is_cut() {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;
@@ -314,8 +314,8 @@ BlockField::Match BlockField::match_of(size_t block) const {
   return matches_[block].difference > kFoundElsewhere * contrast ? Match::kLost : Match::kFound;
 }
 
-/// Searches a picture of a quarter of the resolution, in which each block covers four by four of
-/// the others and is searched over the whole range: this finds objects that have jumped.
+/// Searches at a quarter of the resolution, where each block covers 4 × 4 blocks of the full
+/// resolution and is searched over the whole range: this finds objects that moved far.
 void BlockField::find_hints() {
   hints_.clear();
   if (coarse_.grid.size() == 0) return;
@@ -339,7 +339,7 @@ void BlockField::stand_still() {
   noise_grey2_ = 0;
 }
 
-/// Whether a block may begin between this pixel and the next ones in both directions.
+/// Whether blocks with a corner between `corner_px` and the next pixel in x and y are within reach.
 bool BlockField::is_in_reach(const Vector2i& corner_px) const {
   const Vector2i last_px(now_.width() - kBlock_px - 1, now_.height() - kBlock_px - 1);
   return (corner_px.array() >= -kBlockReach_px).all() &&
@@ -349,8 +349,8 @@ bool BlockField::is_in_reach(const Vector2i& corner_px) const {
 size_t BlockField::origin_of(size_t index) const {
   const Vector2f& moved_px = blocks_[index].moved_px;
   const auto back = [](int position, float by_px, int count) {
-    // The clamp comes first: half a block outside is the first or the last one. std::lround() would
-    // be a call, three times for each block.
+    // Clamping first keeps the value ≥ 0, so that adding 0.5 rounds it: std::lround() would
+    // cost a function call, three times per block.
     const float from = static_cast<float>(position) - by_px / kBlock_px;
     const double inside = std::clamp(static_cast<double>(from), 0.0, count - 1.0);
     return static_cast<int>(inside + 0.5);
@@ -366,7 +366,7 @@ int BlockField::difference_if_moved(size_t block, const Vector2f& moved_px) cons
   if (!is_in_reach(from.pixel)) return -1;
   const BlockPixels here = pixels_at(now_, corner_px);
   int least = kBlockArea_px * 256;
-  // Without a fraction, that is the first of the whole positions.
+  // With a zero fraction, this equals the first position of the loop below.
   if (!from.fraction.isZero()) {
     least = bilinear_difference(here, pixels_at(before(), from.pixel), from.fraction.x(),
                                 from.fraction.y());

@@ -20,8 +20,8 @@ struct ControllerSettings {
 /// Throws std::invalid_argument when a value is out of the range given in ControllerSettings.
 void validate(const ControllerSettings& settings);
 
-/// The gain from speed to force. The paper's equations are one-dimensional; here they act on the
-/// speed and the direction is kept, which is their isotropic reading.
+/// Converts speed to force. The paper's equations are one-dimensional; here they are applied to the
+/// speed, and the force keeps the direction of the motion (their isotropic extension).
 ///
 /// kLinear: F = k v, k = Fmax / Vmax(T), Vmax(T) the largest speed since reset() (eq. 11–13): k
 /// never rises.
@@ -29,7 +29,7 @@ void validate(const ControllerSettings& settings);
 /// kNonlinear: F = (2 Fmax / π) atan(α V) (eq. 14–15).
 ///
 /// kAdaptive: F = (2 Fmax / π) atan((V − V₀)⁺ / S): eq. 15 with 1/α = S, a running scale of the
-/// past speeds, and a dead zone V₀ that the force leaves without a step.
+/// past speeds, and a dead zone V₀ beyond which the force rises continuously from zero.
 ///
 /// The dead zone is that of the motion, or DeadZone::kUnknownError_px_s where that is unknown.
 /// Within the dead zone the force is exactly zero and the scale stays as it is, so that a pause
@@ -51,12 +51,13 @@ class GainController {
   explicit GainController(const ControllerSettings& settings);
 
   /// Returns the force for a speed, 0 … max_force_N. The scale may adapt to the speed, so call this
-  /// once per frame, in order. In px/s of the reference frame: `speed_px_s` ≥ 0, and
-  /// `dead_zone_px_s` as in ImageMotion. `interval_s` is the running time since the previous frame.
-  /// 0 means that the interval, or the dead zone, is unknown.
+  /// once per frame, in order. `speed_px_s` ≥ 0 and `dead_zone_px_s` (see ImageMotion) are in px/s
+  /// of the reference frame. `interval_s` is the running time since the previous frame. An interval
+  /// or a dead zone of 0 is unknown.
   double force_N(double speed_px_s, double interval_s = 0, double dead_zone_px_s = 0);
 
-  /// Applies from the next speed on. The scale stays unless the law changes. Throws as validate().
+  /// Changes the settings for later calls. Keeps the scale unless the law changes. Throws like
+  /// validate().
   void configure(const ControllerSettings& settings);
 
   /// Resets the scale: after a flush or a discontinuity of the stream.

@@ -8,7 +8,7 @@
 namespace spidar {
 namespace {
 
-/// later − earlier ≥ 0 for any two times, whose difference may not fit into an int64_t.
+/// later − earlier, for earlier ≤ later. Unsigned, because the difference can exceed INT64_MAX.
 uint64_t elapsed_ns(int64_t earlier_ns, int64_t later_ns) {
   return static_cast<uint64_t>(later_ns) - static_cast<uint64_t>(earlier_ns);
 }
@@ -17,8 +17,8 @@ double elapsed_s(int64_t earlier_ns, int64_t later_ns) {
   return 1e-9 * static_cast<double>(elapsed_ns(earlier_ns, later_ns));
 }
 
-/// Steffen's slope at the point where two straight lines meet, from their slopes and durations;
-/// zero where that is not a number.
+/// The slope of Steffen's monotone interpolation at the point where two segments meet, from their
+/// slopes and durations; zero if it is not finite.
 Eigen::Vector3d slope_between(const Eigen::Vector3d& before, const Eigen::Vector3d& after,
                               double before_s, double after_s) {
   Eigen::Vector3d slope;
@@ -33,7 +33,7 @@ Eigen::Vector3d slope_between(const Eigen::Vector3d& before, const Eigen::Vector
   return slope;
 }
 
-/// The slope at `b`, on the way from `a` to `c`.
+/// The slope at `b`, reached from `a` in `before_s` and left for `c` in `after_s`.
 Wrench slope_between(const Wrench& a, const Wrench& b, const Wrench& c, double before_s,
                      double after_s) {
   const Wrench before = (1 / before_s) * (b - a);
@@ -63,8 +63,9 @@ bool is_gap(const TimedWrench& frame, int64_t next_ns) {
          static_cast<uint64_t>(hold_ns) + 2 * static_cast<uint64_t>(WrenchTimeline::kRamp_ns);
 }
 
-/// Whether the picture before `motion_ns` gave no force, and was shown again until after that: the
-/// motion then begins with the new picture, not with the last repetition.
+/// Whether the frame `age`, not earlier than `motion_ns`, and the frame before it give no force: a
+/// picture at rest was repeated, so the motion begins with the new picture, not with the last
+/// repetition.
 template <typename Segments>
 bool rests_until(const Segments& segments, size_t age, int64_t motion_ns) {
   const auto is_zero = [&](size_t of) { return segments[of].frame.wrench.stacked().isZero(0); };
@@ -83,9 +84,9 @@ size_t WrenchTimeline::size_after(int64_t time_ns) const noexcept {
 // A cubic Hermite curve from p0 with slope m0 to p1 with slope m1, in a time T, with s from 0 to 1:
 //   p = (2s³ − 3s² + 1) p0 + (−2s³ + 3s²) p1 + (s³ − 2s² + s) T m0 + (s³ − s²) T m1
 //     = p0 + s²(3 − 2s) (p1 − p0) + s(1 − s) T [(1 − s) m0 − s m1].
-// p0 is the value of the segment before at the same time. p0 is constant when that segment has
-// ended; otherwise m0 = 0, and the curve leaves that segment with its slope, because the weight of
-// p1 and its derivative are zero at s = 0.
+// p0 is the value of the previous segment at the same time. p0 is constant once that segment has
+// ended. Until then m0 = 0, and the curve starts with the slope of the previous segment, because
+// the weight of p1 and its derivative are zero at s = 0.
 Wrench WrenchTimeline::value(size_t age, int64_t time_ns) const noexcept {
   const Segment& here = segments_[age];
   if (time_ns >= here.to_ns || age + 1 == size()) return here.frame.wrench;
@@ -99,7 +100,7 @@ Wrench WrenchTimeline::value(size_t age, int64_t time_ns) const noexcept {
 void WrenchTimeline::join_smoothly(Segment& next) noexcept {
   Segment& last = segments_[0];
   const bool has_begun = present_ns_ > last.from_ns;
-  const bool is_plain =  // neither late nor bending away from the segment before
+  const bool is_plain =  // neither late nor overlapping the previous segment
       size() > 1 && last.to_ns == last.frame.motion_ns() &&
       (last.from_ns >= segments_[1].to_ns || rests_until(segments_, 1, last.to_ns));
   if (has_begun || !is_plain) return;
@@ -114,7 +115,7 @@ int64_t WrenchTimeline::approach_after(int64_t interval_ns) noexcept {
   return std::max(std::min(kApproach_ns, interval_ns), static_cast<int64_t>(fraction_ns));
 }
 
-/// The earliest time at which the curve can reach `added`, a frame after `before` that is new.
+/// The earliest time at which the curve can reach `added`, a new frame that follows `before`.
 int64_t WrenchTimeline::soonest(const TimedWrench& before,
                                 const TimedWrench& added) const noexcept {
   if (present_ns_ == INT64_MIN) return INT64_MIN;
@@ -139,8 +140,8 @@ WrenchTimeline::Segment WrenchTimeline::segment_to(const TimedWrench& added) noe
   const int64_t free_ns = segments_[rests_until(segments_, 0, motion_ns) ? 1 : 0].to_ns;
   const bool is_late = std::max(soonest_ns, free_ns) > motion_ns;
   if (is_late) {
-    // When the last frame has expired, the force is already ramping to zero, and there is no curve
-    // over which to fade in.
+    // The last frame has expired: the force is already ramping to zero, so there is nothing to
+    // blend from.
     const bool at_rest = present_ns_ >= last.to_ns && has_expired(last.frame, present_ns_);
     if (at_rest) return next;
     next.from_ns = std::max(present_ns_, last.from_ns);

@@ -29,8 +29,8 @@ class StillStrings {
   /// Whether string `i` did not change with the last update.
   bool is_still(int i) const noexcept { return still_ >> i & 1; }
 
-  /// How far the other strings have moved since string `i` last changed, in metres: the second
-  /// largest distance, because a single count may have jumped.
+  /// How far the strings have moved since string `i` last changed: the second largest change of
+  /// length, because a single count may have jumped.
   double missed_m(const StringVector& lengths_m, int count, int i) const noexcept {
     const StringVector& then = at_change_m_[static_cast<size_t>(i)];
     double most = 0, second = 0;
@@ -60,7 +60,7 @@ enum class PoseStatus {
 
 struct PoseResult {
   Pose pose;
-  double residual_m = 0;  ///< root mean square length error of the used strings
+  double residual_m = 0;  ///< RMS length error of the strings that were used
   int iterations = 0;     ///< the number of linearised problems
   /// The string whose length does not fit the pose of the seven others, which is the returned pose:
   /// the string is slack, its count has jumped, or its encoder is dead. −1 when all strings fit.
@@ -73,13 +73,12 @@ struct PoseResult {
 ///
 /// Limits of what the lengths determine:
 /// - Near the walls of the frame, where the structure matrix is nearly singular, two poses can have
-///   lengths that differ by less than the measurement error. locate() searches the second pose and
+///   lengths that differ by less than the measurement error. locate() looks for a second pose and
 ///   reports kAmbiguous; track() stays with the pose that continues the motion.
-/// - Eight strings have two redundant lengths, so that a fault shows in two numbers only. A fault
-///   that the other seven strings can follow shows when the grip moves on. Two strings whose faults
-///   have the same effect are distinguished by the motion and by counts that stand still.
-/// - Two dead encoders leave too few strings. When counts that stand still reveal them, there is no
-///   pose.
+/// - Eight strings have two redundant lengths, so a fault shows in two numbers only. A fault that a
+///   wrong pose of the other seven strings explains is detected only when the grip moves on. Two
+///   strings whose faults have the same effect are told apart by the motion and by frozen counts.
+/// - Two dead encoders leave too few strings: once frozen counts reveal them, no pose is returned.
 class PoseSolver {
  public:
   /// A larger residual means that the solution is wrong: a local minimum or a bad length. The error
@@ -101,13 +100,13 @@ class PoseSolver {
   /// less well; a fault shows when a length is off by about six times as much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
-  /// For every tick: calls track(), and locate() when tracking fails, or when tracking starts from
-  /// a guess and leads away from it. The slowest case is lengths that fit no pose; `spidar-bench
-  /// pose` measures it.
+  /// To be called on every tick. Calls track(), then locate() if tracking fails or leads away from
+  /// an initial guess. The slowest case, which `spidar-bench pose` measures, is lengths that fit no
+  /// pose.
   PoseResult solve(const StringVector& lengths_m) noexcept;
 
-  /// Finds the pose near the last one, by Gauss–Newton from the last pose moved on by the last
-  /// motion. With eight strings, one that does not fit is left out and reported. The string returns
+  /// Finds the pose near the last one, by Gauss–Newton from the pose that the last motion predicts.
+  /// With eight strings, one that does not fit is left out and reported. The string is used again
   /// when its length has fitted for 100 calls with some motion, or over 5 mm of motion.
   PoseResult track(const StringVector& lengths_m) noexcept;
 
@@ -115,7 +114,7 @@ class PoseSolver {
   /// turned poses at the centre.
   PoseResult locate(const StringVector& lengths_m) noexcept;
 
-  /// Sets where the next search starts. Drops the motion, but not which counts have stood still.
+  /// Sets the start of the next search. Forgets the motion, but remembers which counts are frozen.
   void search_from(const Pose& pose) noexcept;
 
   /// Drops everything, for another device, or one that was switched on again.
@@ -151,7 +150,7 @@ class PoseSolver {
   StillStrings counts_;
   int faulty_string_ = -1;
   int fitting_ticks_ = 0;      ///< how long the length of faulty_string_ has fitted again
-  double fitting_from_m_ = 0;  ///< its length when that began
+  double fitting_from_m_ = 0;  ///< the length of faulty_string_ when it began to fit
 };
 
 }  // namespace spidar

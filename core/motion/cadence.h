@@ -10,31 +10,31 @@
 
 namespace spidar {
 
-/// Finds the rhythm in which a film shows new pictures. A film can move although its frames repeat
-/// pictures: 24 pictures a second in 60 frames, a cartoon drawn on twos, a late frame that was
-/// shown twice. The motion is the displacement between two different pictures, divided by the time
+/// Finds the cadence with which a film shows new pictures. A moving film can repeat pictures: 24
+/// pictures a second in 60 frames, a cartoon drawn on twos, a late frame that was shown twice. The
+/// motion is the displacement between two different pictures, divided by the time
 /// between them.
 ///
-/// That time is not the one between their first frames when the pictures were taken at even
-/// intervals and each is shown when a frame is due: 24 pictures a second in 60 frames are shown for
-/// three and two frames in turn. This class learns the right time from the latest intervals. It
-/// also decides how long a repeated picture may still belong to a motion, and from when on it is at
-/// rest.
+/// That time differs from the time between their first frames when pictures taken at even
+/// intervals are shown at another frame rate: 24 pictures a second in 60 frames are shown for three
+/// and two frames in turn (3:2 pulldown). This class estimates the true interval
+/// from the latest ones. It also decides how long a repeated picture still counts as moving, and
+/// when it counts as at rest.
 class Cadence {
  public:
   /// A picture that has been shown for this long is at rest, unless longer intervals have been
   /// seen. Together with the 15 ms in which the force of a late frame fades in
   /// (WrenchTimeline::kApproach_ns) this is 100 ms.
   static constexpr int64_t kRest_ns = 85'000'000;
-  /// Pictures further apart are not compared. This is a cartoon drawn on threes, plus a frame.
+  /// Pictures further apart than this are not compared: a cartoon drawn on threes, plus one frame.
   static constexpr int64_t kLongest_ns = 2 * kRest_ns;
   static constexpr size_t kPictures = 24;
 
   /// How a frame is treated.
   struct Step {
-    /// Whether the frame repeats the picture, perhaps not at rest: the previous force continues.
+    /// Whether the frame repeats a picture that may still be moving: the previous force continues.
     bool waits = false;
-    /// Otherwise, the time in which the motion happened, > 0.
+    /// If not `waits`: the duration of the motion, > 0.
     int64_t interval_ns = 0;
     /// The time between the first frames of the two pictures, > 0.
     int64_t shown_for_ns = 0;
@@ -43,16 +43,16 @@ class Cadence {
   /// Whether a picture that is repeated at `time_ns` would have to wait.
   bool would_wait(int64_t time_ns) const;
 
-  /// Takes the frame shown at `time_ns`, which must rise; the first frame after reset() goes to
-  /// cut(). `picture` is kSame; kAlike for a picture that has waited long enough to be analysed; or
-  /// kOther. `repeats` tells which earlier kOther frames turned out to repeat their previous
-  /// picture, this frame first.
+  /// Adds the frame shown at `time_ns`. The times must increase, and the first frame after reset()
+  /// goes to cut() instead. `picture` is kSame, kOther, or kAlike, which here means a repeated
+  /// picture that has waited long enough to be analysed. `repeats` marks the kOther frames that
+  /// turned out to repeat the previous picture, newest (this frame) first.
   Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }
 
-  /// Takes the first picture after a cut: the motion begins anew, but the rhythm remains.
+  /// Adds the first picture after a cut: the motion begins anew, but the cadence is kept.
   void cut(int64_t time_ns);
 
   void reset() { *this = Cadence(); }
@@ -61,7 +61,7 @@ class Cadence {
   /// A picture that was followed by another one.
   struct Shown {
     int64_t interval_ns = 0;  ///< from its first frame to that of the next picture
-    int frames = 1;           ///< that have shown it
+    int frames = 1;           ///< the number of frames that showed the picture
   };
 
   void remember(const Shown& shown);

@@ -20,21 +20,21 @@ class FilePipeline;
 
 namespace spidar::tools {
 
-/// The longest time in which nothing may come from a slow network share.
+/// The timeout without data that allows for a slow network share.
 constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
 
 constexpr const char* kEndMissing = "its end is missing: it is damaged or cut off";
 
-/// Sets the properties on a spidarmotion.
+/// Sets the properties of a spidarmotion element.
 void set_properties(GstElement* motion, const RecordProperties& properties);
 
-/// Reports how many percent of a film are done. Outlives the pipeline.
+/// Reports the progress of a film in percent. Must outlive the pipeline.
 class FilmProgress {
  public:
-  /// `tell` is called in a streaming thread whenever the number has risen.
+  /// `tell` is called in a streaming thread whenever the percentage has risen.
   explicit FilmProgress(std::function<void(int percent)> tell);
 
-  /// Counts the frames that come out of `motion`.
+  /// Follows the timestamps of the frames that leave `motion`.
   void watch(GstElement* motion);
 
  private:
@@ -45,9 +45,9 @@ class FilmProgress {
   int told_ = 0;
 };
 
-/// Follows a film through a pipeline that reads as fast as it can: chooses the video, and notices
-/// damage. GStreamer ends a truncated film like a whole one, and leaves it to the application to
-/// judge its warnings. Outlives the pipeline.
+/// Monitors a pipeline that reads a film as fast as possible: selects the video stream and detects
+/// damage. GStreamer ends a truncated film like a complete one and leaves the judgement of warnings
+/// to the application. Must outlive the pipeline.
 class FilmWatch {
  public:
   FilmWatch() = default;
@@ -61,9 +61,9 @@ class FilmWatch {
   void play(const FilePipeline& file) const;
   /// After the pipeline has ended, with `error` or, if that is empty, at the end of the film:
   /// returns a sentence that says what is wrong with the film, or an empty string. A film of fewer
-  /// than two frames is wrong, too.
+  /// than two frames is an error, too.
   std::string why_ended(const std::string& error) const;
-  /// A remark on the track of a film that is whole; usually empty.
+  /// A remark on the track of an undamaged film; usually empty.
   const std::string& remark() const { return remark_; }
   /// Sentences: what fraction of the frames is felt, and the commonest reason for the others.
   std::string felt() const;
@@ -76,11 +76,11 @@ class FilmWatch {
   VideoChoice videos_{VideoChoice::Rule::kFirst};
   GstElement* convert_ = nullptr;
   mutable std::mutex lock_;
-  bool failed_ = false;        ///< with an error, from which later warnings follow
+  bool failed_ = false;        ///< there was an error; later warnings are its consequences
   std::string warning_;        ///< the first one
   std::string remark_;         ///< the first warning of spidarmotion
-  bool has_appended_ = false;  ///< demuxers warn that they cannot parse data behind the film
-  bool unmeasured_ = false;    ///< several frames in a row; the remark says why
+  bool has_appended_ = false;  ///< data follows the film; demuxers warn that they cannot parse it
+  bool unmeasured_ = false;    ///< several frames in a row were not measured; see remark_
   std::string missing_;        ///< the missing decoder of the video
   bool has_video_ = true;      ///< unknown until chosen
   std::string why_no_video_;

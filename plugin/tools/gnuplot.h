@@ -8,12 +8,12 @@
 
 namespace spidar::tools {
 
-/// Runs gnuplot once on `script`, which sets its terminal to a kind of PNG, contains its data and
-/// does not set an output, and writes the picture into `picture`. Throws std::runtime_error with
-/// the reason: gnuplot is missing or reports an error, or the file cannot be written.
+/// Runs gnuplot on `script` and writes the plot to `picture`. The script selects a PNG terminal and
+/// contains its data; it does not set an output. Throws std::runtime_error when gnuplot is missing
+/// or reports an error, or when the file cannot be written.
 void draw_with_gnuplot(const std::string& script, const PartFile& picture);
 
-/// `text` as a string literal of a script.
+/// Returns `text` as a quoted gnuplot string.
 std::string gnuplot_string(const std::string& text);
 
 }  // namespace spidar::tools

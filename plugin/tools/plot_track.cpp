@@ -31,11 +31,11 @@ set offsets 0, 0, graph 0.1, 0
 /// Sizes in pixels.
 constexpr int kWidth = 1400, kHeight = 700, kGap = 14;
 
-/// Bins of a curve: more than the picture has columns.
+/// The most bins per curve: more than the picture is wide in pixels.
 constexpr size_t kBins = 4000;
 
-/// The lowest and the highest value of each bin, as two rows: time, force, torque. A short peak is
-/// visible in a track of any length.
+/// Writes each bin as two rows, its minimum and its maximum, with the columns time, force and
+/// torque. A short peak is therefore visible in a track of any length.
 class BinWriter {
  public:
   BinWriter(std::ostream& script, size_t samples)
@@ -67,7 +67,7 @@ class BinWriter {
   std::array<double, kTrackChannels> low_{}, high_{};
 };
 
-/// Places a plot between two heights of the picture, in pixels from its top.
+/// Sets the top and bottom edges of a plot, in pixels from the top of the picture.
 void place(std::ostream& script, int top, int bottom) {
   script << "set tmargin at screen " << 1 - static_cast<double>(top) / kHeight
          << "\nset bmargin at screen " << 1 - static_cast<double>(bottom) / kHeight << '\n';
@@ -94,7 +94,7 @@ int plot_track(const std::string& track, const std::string& png, bool force) {
   script << "END\n";
   script << "set multiplot\n";
   place(script, kGap, kHeight / 2 - 2 * kGap);
-  // The range is not empty even if nothing is felt.
+  // Keep the range from being empty when all values are zero.
   script << "set yrange [*<-0.1 : 0.1<*]\nset ylabel 'force, N'\n"
             "plot $samples using 1:2 title 'x, right', '' using 1:3 title 'y, up', "
             "'' using 1:4 title 'z, towards the viewer'\n";

@@ -4,7 +4,7 @@
 
 namespace spidar {
 
-/// Causes of wrong answers of strings, the likeliest first, as the end of a sentence.
+/// The causes of string faults, most likely first, worded to end a sentence.
 constexpr const char* kStringCauses =
     "the motors have no supply (the emergency stop is pressed, or a supply is off); a string is "
     "slack or off its pulley; the grip was not at the centre when the device was opened; the "

@@ -34,18 +34,18 @@ class Transport {
 
   virtual ~Transport() = default;
 
-  /// Claims the connection. Throws DeviceError with a message that says what to do. May be called
-  /// again after close() or kGone.
+  /// Claims the connection. Throws DeviceError with a message that tells the user what to do. May
+  /// be called again after close() or after a transfer has returned kGone.
   virtual void open() = 0;
 
-  /// Sends packets in order, then receives one that fills `reply`; if `reply` is empty, only sends.
-  /// Blocks until the exchange is complete, or until the deadline (CLOCK_MONOTONIC), and then
-  /// returns kTimeout. Returns kShort if fewer bytes arrive than `reply` can hold. Whatever the
-  /// result, the packets may have arrived.
+  /// Sends the packets in order, then receives one as long as `reply`; if `reply` is empty, only
+  /// sends. Blocks until the exchange is complete; returns kTimeout at the deadline
+  /// (CLOCK_MONOTONIC). Returns kShort if fewer bytes arrive than `reply` can hold. The packets may
+  /// have reached the board even if the result is a fault.
   ///
-  /// The newest state counts: received data is dropped if it arrived before the packets went out,
-  /// because it cannot answer them. When such data does not end, or when the exchanges that found
-  /// such data exceed the others by kMostUnasked, the result is kBabble.
+  /// Data that arrived before the packets were sent is stale and is dropped. Returns kBabble when
+  /// stale data keeps coming, or when the exchanges that found stale data outnumber the others by
+  /// kMostUnasked.
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept {
     if (packets.size() == 0 || reply.size == 0) return transfer(packets, reply, deadline_ns);
@@ -60,8 +60,8 @@ class Transport {
     return result;
   }
 
-  /// Sends a vendor request without data; kRefused if there is no such pipe. Blocks as exchange()
-  /// does.
+  /// Sends a vendor request without data; returns kRefused if the connection has no control pipe.
+  /// Blocks until the deadline, like exchange().
   virtual LinkFault control(const VendorRequest&, int64_t) noexcept { return LinkFault::kRefused; }
 
   /// Call this after a fault: clears stalls, discards pending replies, may block some ms.
@@ -71,14 +71,14 @@ class Transport {
   /// the name says so.
   virtual std::string where() const { return {}; }
 
-  /// Returns a will, without packets, with which another process can reach the same board; empty if
-  /// that is not possible. Call this after open(). Throws DeviceError without a file.
+  /// Returns a LastWill without packets, through which another process can reach the same board;
+  /// empty if that is impossible. Call this after open(). Throws DeviceError if no file is open.
   virtual std::optional<LastWill> last_will() const = 0;
 
   /// May be called twice.
   virtual void close() noexcept = 0;
 
-  /// Two seconds of exchanges. A few surplus answers, which are dropped, are no reason to stop.
+  /// Two seconds of exchanges. A few stale replies are dropped and are not a fault.
   static constexpr int kMostUnasked = 2000;
 
  protected:
@@ -87,8 +87,8 @@ class Transport {
   /// The part of exchange() that differs between connections.
   virtual Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                             int64_t deadline_ns) noexcept = 0;
-  /// Drops data that has arrived and answers nothing, until there is no more (kDropped) or until
-  /// `until_ns` (kEndless). A USB board keeps such answers itself, a few of them at most.
+  /// Drops stale received data until none is left (kDropped) or until `until_ns` (kEndless). The
+  /// default drops nothing: a USB board buffers its replies itself, and only a few of them.
   virtual Unasked drop_unasked(int64_t) noexcept { return Unasked::kNone; }
 
  private:
@@ -97,8 +97,8 @@ class Transport {
 
 /// Locks an open device file for this file descriptor until it is closed. Waits up to
 /// Transport::kBusyPatience_ns, because a program that has just been killed, or its guardian, may
-/// hold the lock a moment longer. Returns false and sets errno without the lock; EWOULDBLOCK means
-/// that another process holds it.
+/// hold the lock a moment longer. On failure returns false and sets errno, to EWOULDBLOCK if
+/// another process holds the lock.
 inline bool lock_device(int file) noexcept {
   const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
   while (flock(file, LOCK_EX | LOCK_NB) != 0) {

@@ -10,14 +10,14 @@
 
 namespace spidar {
 
-/// What the previous frame shows about the votes of this one. Vectors have one value for each
-/// block, or none after a cut.
+/// The results of the previous frame that weight the votes of this frame. Each vector has one value
+/// per block, or is empty after a cut.
 struct PreviousFrame {
   /// The probability that the block was foreground, 0 … 1.
   const std::vector<float>& foreground;
   const std::vector<uint8_t>& burned_in;  ///< 1: the block showed graphics
   const std::vector<uint32_t>& objects;   ///< the number of the block's object; 0: none
-  /// Blocks of bars and frames around the film, on each side.
+  /// The blocks on each side that black bars or a frame around the film cover.
   int margin_columns = 0;
   int margin_rows = 0;
 
@@ -26,10 +26,10 @@ struct PreviousFrame {
   bool is_burned_in(size_t block) const { return !burned_in.empty() && burned_in[block] != 0; }
 };
 
-/// Sets `votes` to those of the textured blocks of `field`.
+/// Collects into `votes` the votes of the textured blocks of `field`.
 void collect_votes(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
-/// Works like collect_votes(), but edges vote too, if together they have more than one direction:
-/// for pictures in which little else votes.
+/// Like collect_votes(), but edges vote too if they have more than one direction together. For
+/// pictures with few textured blocks.
 void collect_edges(const BlockField& field, const PreviousFrame& past, BackgroundVotes& votes);
 void collect_coarse_blocks(const BlockField& field, const std::vector<MotionBlock>& coarse,
                            const PreviousFrame& past, BackgroundVotes& votes);
