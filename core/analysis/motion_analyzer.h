@@ -27,9 +27,9 @@ namespace spidar {
 /// (Likeness::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 ///
-/// Where AreaFinder sees or suspects that the film is elsewhere in the picture than where it is
-/// measured, that part is measured beside it, and takes its place as soon as it is sure and shows
-/// as much, so that there is no gap.
+/// Where AreaFinder finds or guesses that the film is in another part of the picture than the one
+/// that is measured, both parts are measured. The other part replaces the first one as soon as it
+/// is sure and shows as much, so that there is no gap.
 class MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.

@@ -16,7 +16,7 @@ namespace spidar {
 namespace {
 
 /// A pixel of the reduced picture has changed if it differs by more than so many grey levels: more
-/// than rounding and what good encoders leave of a picture at rest.
+/// than rounding and the changes of good encoders in a still picture.
 constexpr uint8_t kChanged_grey = 3;
 /// A change adds kRise to the level of a pixel, up to kMaxLevel, and each picture takes 1 from it.
 /// From kLasts on, which takes two changes within some pictures, a pixel changes lastingly. After
@@ -24,39 +24,41 @@ constexpr uint8_t kChanged_grey = 3;
 constexpr uint8_t kRise = 8;
 constexpr uint8_t kLasts = 2 * kRise - 2;
 constexpr uint8_t kMaxLevel = 3 * kRise;
-/// While nothing tells of a film in a part of the picture, one of so many pictures is looked at.
+/// While nothing shows that a film covers a part of the picture, one of so many pictures is
+/// examined.
 constexpr int kLookEvery = 8;
-/// What changes between the first two pictures may be lasting.
+/// A change between the first two pictures may be lasting.
 constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
 
 constexpr int kAreaCell_px = 8;
 
-/// A side is straight if on so much of its length what changes begins within two lines of pixels.
-/// The sides of a disc of 80 px have 0.2 and 0.3.
+/// A side is straight if on so much of its length the changes begin within two lines of pixels. The
+/// sides of a disc of 80 px have 0.2 and 0.3.
 constexpr double kStraight = 0.4;
 /// Two cells, of which the outer one may have a line only.
 constexpr int kNear_px = 2 * kAreaCell_px;
-/// So much of what begins at a side must have changed in the newest picture, too: where an object
-/// has left, nothing does.
+/// This fraction of the changes that begin at a side must also be in the newest picture: where an
+/// object has left, nothing changes.
 constexpr double kStillChanges = 0.1;
 /// The smallest film, as a fraction of the picture's width and height, and of its cells that
 /// change.
 constexpr double kSmallest = 0.15;
 constexpr double kFilled = 0.4;
-/// A side is crossed if most of what is beside it changes, and all of a page is another film if
-/// most of it changes at once.
+/// A side is crossed if most of what is beside it changes, and a whole page is another film if most
+/// of it changes at once.
 constexpr double kMost = 0.5;
-/// A film goes on while something changes in so much of what changes in another rectangle: an
-/// object in a third of the width and height of a film of that size.
+/// A film continues while one in so many of another rectangle's changes is in the film: an object
+/// in a third of the width and height of a film of that size.
 constexpr int kPartsThatGoOn = 9;
 /// The widest bar beside a film, as a fraction of the picture: of 4:3 in 16:9.
 constexpr double kMaxBar = 0.125;
-/// By how much a side may seem to move while it stays.
+/// How far a side may seem to move while it stays.
 constexpr int kStaysWithin_px = 1;
-/// How far beside a side it is looked for what crosses it.
+/// How far beside a side changes count as crossing it.
 constexpr int kBeside_px = kStaysWithin_px + 1;
-/// By so much what is in a rectangle must have moved to show whether its sides move with it: then
-/// two lines at a side that an object leaves are behind it, and what is beside the other is in it.
+/// How far the content of a rectangle must have moved to show whether its sides move with it. An
+/// object that moves this far leaves two lines behind it at one side, and covers the pixels beside
+/// the opposite side.
 constexpr double kMoves_px = kBeside_px + kStaysWithin_px;
 
 bool is_same(int a, int b) {
@@ -69,7 +71,7 @@ bool contains(const PicturePart& outer, const PicturePart& inner) {
          inner.y + inner.height <= outer.y + outer.height + kStaysWithin_px;
 }
 
-/// Whether the analysis leaves out by itself what has such widths at two opposite sides (Margins).
+/// Whether the analysis leaves out bars of such widths at two opposite sides by itself (Margins).
 bool are_bars(int one, int other, int across) {
   return std::abs(one - other) <= kAreaCell_px && std::max(one, other) <= kMaxBar * across;
 }
@@ -82,12 +84,12 @@ cv::Mat mat_of(PaddedImage& map) {
   return {map.height(), map.width(), CV_8U, map.row(0), static_cast<size_t>(map.stride())};
 }
 
-/// In how many pixels of a part, a map is set.
+/// Returns in how many pixels of a part a map is set.
 int set_in(const PaddedImage& map, const PicturePart& part) {
   return cv::countNonZero(const_mat(part_of(map.view(), part)));
 }
 
-/// In how many places along a part, a map is set at either of two columns or rows.
+/// Returns in how many places along a part a map is set at either of two columns or rows.
 int set_along(const PaddedImage& map, const PicturePart& part, bool is_column, int at, int or_at) {
   if (std::min(at, or_at) < 0 || std::max(at, or_at) >= (is_column ? map.width() : map.height())) {
     return 0;
@@ -120,7 +122,7 @@ void AreaFinder::keep(const ImageView& picture) {
   for (int y = 0; y < height_; ++y) std::copy_n(picture.at(0, y), width_, now_.row(y));
 }
 
-/// Compares the picture with the one before, and keeps it. False if it shows the same.
+/// Compares the picture with the one before, and stores it. Returns false if it shows the same.
 bool AreaFinder::take(const ImageView& picture) {
   using cv::v_uint8x16;
   const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey), one = cv::v_setall_u8(1);
@@ -148,7 +150,7 @@ bool AreaFinder::take(const ImageView& picture) {
   ++compared_;
   if (state_ == State::kPage && changes > kMost * width_ * height_) state_ = State::kSearching;
   const int lasting_before = std::exchange(lasting_pixels_, set_in(lasting_, all));
-  // Of a picture that is shown again, an encoder changes little of what changes otherwise.
+  // In a repeated picture, an encoder changes few of the pixels that change otherwise.
   const bool repeats = changes < double{RepeatedPicture::kFraction} * lasting_before &&
                        skipped_ < RepeatedPicture::kMaxAtOnce;
   skipped_ = repeats ? skipped_ + 1 : 0;
@@ -171,7 +173,7 @@ void AreaFinder::count_cells() {
   }
 }
 
-/// Whether most cells at each of the four sides of the picture change: all of it is the film.
+/// Whether most cells at each side of the picture change: the whole picture is the film.
 bool AreaFinder::reach_all_borders() const {
   const int columns = cells_.width(), rows = cells_.height();
   const PicturePart all{0, 0, columns, rows};
@@ -181,7 +183,7 @@ bool AreaFinder::reach_all_borders() const {
   return reach(true, 0) && reach(true, columns - 1) && reach(false, 0) && reach(false, rows - 1);
 }
 
-/// The left (`is_column`) or upper side of what changes in `part`, or the right or lower one.
+/// The left (`is_column`) or upper side of the changes in `part`, or the right or lower one.
 AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bool is_far) const {
   const int across = is_column ? width_ : height_;
   const int first = is_column ? part.x : part.y;
@@ -190,7 +192,7 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
   // From outside inwards.
   const int outside = is_far ? first + (is_column ? part.width : part.height) - 1 : first;
   const int step = is_far ? -1 : 1;
-  // A film that ends in the next cell, by less than a line of that.
+  // The film may end in the next cell, by less than a line of that.
   const int from = std::clamp(outside - kStaysWithin_px * step, 0, across - 1);
   const ptrdiff_t inwards = is_column ? step : step * lasting_.stride();
   std::array<int, kNear_px + 1> begins{};
@@ -208,7 +210,7 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
     if (begins[i] + begins[i + 1] > begins[best] + begins[best + 1]) best = i;
   }
   const int together = begins[best] + begins[best + 1];
-  // Of two lines, the outer one may show only a part of the film.
+  // The outer one of two lines may show only a part of the film.
   const int at = static_cast<int>(best) + (begins[best] < begins[best + 1] ? 1 : 0);
   Side side;
   side.at = from + at * step;
@@ -221,8 +223,8 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
   return side;
 }
 
-/// Whether what changes is a rectangle that is neither all of the picture nor all between two bars.
-/// At most one of its sides may not show, as below a sky.
+/// Whether the changes are a rectangle that is neither the whole picture nor everything between two
+/// bars. At most one of its sides may not show, as below a sky.
 bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   // side_of() looks inwards.
   if (candidate.part.width <= 2 * kNear_px || candidate.part.height <= 2 * kNear_px) return false;
@@ -247,7 +249,7 @@ bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   return true;
 }
 
-/// The rectangle in which most changes, of those that are connected.
+/// The rectangle of the connected cells with the most changes.
 std::optional<AreaFinder::Candidate> AreaFinder::best_candidate() const {
   std::optional<Candidate> best;
   if (reach_all_borders()) return best;
@@ -288,7 +290,7 @@ bool AreaFinder::confirm(const Candidate& candidate) {
   return ++stayed_ >= kStays && compared_ > kStays;
 }
 
-/// Beside how many sides most of a map is set.
+/// Returns beside how many sides most of a map is set.
 int AreaFinder::crossed_sides(const PaddedImage& map) const {
   int crossed = 0;
   for (size_t i = 0; i < sides_.size(); ++i) {
@@ -301,24 +303,24 @@ int AreaFinder::crossed_sides(const PaddedImage& map) const {
   return crossed;
 }
 
-/// Looks for the film anew.
+/// Searches the film anew.
 void AreaFinder::search(State state, int64_t running_ns) {
   state_ = state;
   since_ns_ = running_ns;
   stayed_ = 0;
-  // What has changed before was elsewhere.
+  // Earlier changes were elsewhere.
   mat_of(levels_).setTo(0);
   mat_of(lasting_).setTo(0);
 }
 
-/// What becomes of the film that is found.
+/// Keeps, replaces or gives up the film that is found.
 void AreaFinder::follow(const std::optional<Candidate>& candidate, bool is_confirmed,
                         int64_t running_ns) {
   if (!candidate || is_same(candidate->part, part_)) {
     since_ns_ = running_ns;
     return;
   }
-  // Of another film, or of a part of this one, while the rest of it still changes.
+  // The candidate belongs to another film, or to a part of this one, while the rest still changes.
   const bool is_part = contains(part_, candidate->part);
   const int others = set_in(lasting_, candidate->part);
   const int own = set_in(lasting_, part_) - (is_part ? others : 0);
@@ -366,7 +368,7 @@ void AreaFinder::tell(bool moves, double across_px, double down_px, int64_t runn
   }
 }
 
-/// All of the picture changes: it is the film, or the film between blurred copies of itself.
+/// The whole picture changes: it is the film, or the film between blurred copies of itself.
 void AreaFinder::look_for_copies(const ImageView& picture, int64_t running_ns) {
   if (state_ == State::kFound || (copies_ns_ && running_ns - *copies_ns_ < kCopies_ns)) return;
   copies_ns_ = running_ns;
@@ -413,7 +415,7 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
   if (state_ == State::kFound) return follow(candidate, is_confirmed, running_ns);
   const bool searches = is_searching();
   const int64_t searched_ns = searches ? running_ns - since_ns_ : 0;
-  // All that moves while a page does is no film.
+  // Nothing that moves while a page does is a film.
   const bool may_be_page = searches && searched_ns < kSearch_ns && candidate &&
                            candidate->part != part_ && contains(candidate->part, part_);
   if (is_confirmed && !may_be_page) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Finds the film in pictures that show something else around it.
 #pragma once
 
 #include <array>
@@ -15,63 +14,65 @@
 
 namespace spidar {
 
-/// What is around a film does not change, or not with it: a frame, a page, the desktop. The film is
-/// where pixels go on changing, in a rectangle whose sides are straight and stay: along a side,
-/// what changes begins at the same column or row, where the outline of an object would have it
-/// begin elsewhere in each row, or one picture later at another place. A side at the border of the
-/// picture says nothing. Changes last where they are more than one in kRise + 1 pictures, so that a
-/// notification or the noise of one coded picture does not count.
+/// Finds the part of the picture that shows a film. What is around a film, such as a frame, a page
+/// or the desktop, does not change, or not with the film. The film is where pixels go on changing,
+/// in a rectangle whose sides are straight and stay: along a side, the changes begin at the same
+/// column or row. Along the outline of an object, they begin elsewhere in each row, or one picture
+/// later at another place. A side at the border of the picture shows nothing. Changes last where
+/// there is more than one in kRise + 1 pictures, so that a notification or the noise of one coded
+/// picture does not count.
 ///
-/// A rectangle is a film when it has stayed for kStays pictures, or when what is in it moves and
-/// its sides do not: those of an object move with it. Until then, it is a guess. Where all of the
-/// picture changes, the film may lie between blurred copies of itself (SharpSides).
+/// A rectangle is a film when it has stayed for kStays pictures, or when its content moves and its
+/// sides do not: the sides of an object move with the object. Until then, the rectangle is a guess.
+/// Where all of the picture changes, the film may lie between blurred copies of itself
+/// (SharpSides).
 ///
-/// A film whose camera rests changes only where an object is, and shows no rectangle. A known one
-/// is therefore kept until something crosses its sides: another film, or a page that moves. Then
-/// the film is looked for anew, for up to kSearch_ns; if none is found, it is all of the picture.
-/// After a page has scrolled from picture to picture, there is no film until one is found, most of
-/// the picture changes, or nothing has scrolled for kRests_ns. A single picture that is the one
-/// before, scrolled, is left out: a film without noise may have it.
+/// A film whose camera rests changes only where an object is, and shows no rectangle. A known
+/// rectangle is therefore kept until something crosses its sides: another film, or a page that
+/// moves. Then the film is searched anew, for up to kSearch_ns; if none is found, the film is the
+/// whole picture. After a page has scrolled from picture to picture, there is no film until one is
+/// found, most of the picture changes, or nothing has scrolled for kRests_ns. A single picture that
+/// shows the previous one scrolled is ignored: a film without noise may have such a picture.
 ///
 /// For one thread at a time. Allocates when the size changes, and for what moves before a picture
 /// at rest.
 class AreaFinder {
  public:
-  /// Takes the next picture, reduced to 8 bits; one that shows the previous one again changes
-  /// nothing. `scrolls`: it is the previous one, scrolled.
+  /// Takes the next picture, reduced to 8 bits; a repetition of the previous one changes nothing.
+  /// `scrolls` says that it is the previous one, scrolled.
   void look(const ImageView& picture, int64_t running_ns, bool scrolls = false);
 
-  /// Px of the reduced picture; nothing: the film is all of it.
+  /// The film in px of the reduced picture; nothing: the film is the whole picture.
   std::optional<PicturePart> area() const {
     if (state_ == State::kFound || state_ == State::kBetweenCopies) return part_;
     return std::nullopt;
   }
-  /// It is not known where the film is: what is around it moves, or has just changed.
+  /// Whether the place of the film is unknown: its surroundings move, or have just changed.
   bool is_searching() const {
     return scrolls_ || state_ == State::kSearching || state_ == State::kPage;
   }
-  /// The area or, while there is none, what may be one; nothing: all of the picture.
+  /// The area or, while there is none, a guess at it; nothing: the whole picture.
   std::optional<PicturePart> film() const { return is_guess() ? pending_.part : area(); }
   /// Whether film() is not sure.
   bool is_guess() const { return state_ == State::kWhole && stayed_ > 0 && !scrolls_; }
-  /// Whether anything in film() moves, while it is a guess, and how far, on an average, to the
-  /// picture that was looked at last. That may show that it is the film, or is not.
+  /// Takes whether anything in film() moves while that is a guess, and the mean displacement to the
+  /// last picture. This may confirm or refute the guess.
   void tell(bool moves, double across_px, double down_px, int64_t running_ns);
-  /// It searches in a page.
+  /// Whether the search is in a page.
   bool is_page() const { return scrolls_ || state_ == State::kPage; }
 
-  /// Another film begins.
+  /// Begins another film.
   void reset() { *this = {}; }
 
-  /// How many pictures a rectangle must stay before it is believed. An object that is a
-  /// rectangle with a texture that changes by kChanged_grey a picture moves by more than a pixel in
-  /// them.
+  /// For how many pictures a rectangle must stay before it counts as the film. In so many pictures,
+  /// a rectangular object whose texture changes by kChanged_grey a picture moves by more than a
+  /// pixel.
   static constexpr int kStays = 4;
-  /// How often blurred copies beside the film are looked for.
+  /// How often blurred copies beside the film are searched.
   static constexpr int64_t kCopies_ns = 1'000'000'000;
   static constexpr int64_t kSearch_ns = 1'000'000'000;
-  /// For how long nothing must change in the film before another one replaces it; a part of it,
-  /// with all that changes in it, does after kSearch_ns.
+  /// How long nothing must change in the film before another one replaces it. A part of the film
+  /// that contains all changes replaces it after kSearch_ns.
   static constexpr int64_t kRests_ns = 2'000'000'000;
 
  private:
@@ -113,7 +114,7 @@ class AreaFinder {
   State state_ = State::kWhole;
   PicturePart part_;
   int64_t since_ns_ = 0;  ///< of the search; of a film that is found, when it changed last
-  // Of the pixels, with all of the cells at the right and at the bottom.
+  // Maps of the pixels, with whole cells at the right and at the bottom.
   PaddedImage now_, before_;
   PaddedImage changed_;  ///< 255 where the newest picture differs from the one before
   PaddedImage levels_;   ///< see kRise
@@ -128,7 +129,7 @@ class AreaFinder {
   bool scrolls_ = false;  ///< the newest picture is the one before, scrolled
   Candidate pending_;
   int stayed_ = 0;                    ///< pictures in which it has been `pending_`
-  std::array<double, 2> moved_px_{};  ///< what is in it, since then
+  std::array<double, 2> moved_px_{};  ///< motion of its content since then
   std::array<Side, 4> sides_;         ///< of the film that is found
   int crossed_ = 0;  ///< pictures in which something has lastingly crossed its sides
   SharpSides sharp_sides_;

@@ -35,7 +35,7 @@ void SharpSides::measure(const ImageView& picture, bool are_beside) {
   bands_ = (are_beside ? picture.height : picture.width) / kBand_px;
   const ptrdiff_t along = are_beside ? 1 : picture.stride_bytes;
   const ptrdiff_t across = are_beside ? picture.stride_bytes : 1;
-  // Both ways, so that the second one needs no more memory.
+  // The size serves both ways, so that the second measurement needs no more memory.
   sums_.resize(static_cast<size_t>((picture.width + kBand_px) * (picture.height + kBand_px)) /
                kBand_px);
   for (int band = 0; band < bands_; ++band) {
@@ -78,7 +78,7 @@ float SharpSides::sharper(int inside, int outside) {
   return *quarter;
 }
 
-/// Of two equal sides; 0 if there are none.
+/// Returns the width of two equal sides; 0 if there are none.
 int SharpSides::side_width(const ImageView& picture, bool are_beside) {
   measure(picture, are_beside);
   int best = 0;

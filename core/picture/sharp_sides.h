@@ -17,7 +17,7 @@ class SharpSides {
   /// The part of a reduced picture of 8 bits that lies between two equally wide sides, left and
   /// right or above and below, which are blurred along all of their length, as television shows a
   /// film of an upright telephone. Sides that are plain are bars, which Margins leaves out. One
-  /// picture tells.
+  /// picture suffices.
   std::optional<PicturePart> find(const ImageView& picture);
 
  private:

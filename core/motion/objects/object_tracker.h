@@ -177,7 +177,8 @@ class ObjectTracker {
   explicit ObjectTracker(std::shared_ptr<uint32_t> next_id = std::make_shared<uint32_t>(1));
 
   /// The result is valid until the next call and ordered by id. Ids count the objects that were in
-  /// a result. `background` is in pixels of the field's picture.
+  /// a result, so that their number identifies the next one. `background` is in pixels of the
+  /// field's picture.
   ///
   /// How an object rotates and grows is measured in each frame for the one that is `felt`, an id or
   /// 0, and for one of the others, by turns: the values of the rest stay. This bounds the time for
