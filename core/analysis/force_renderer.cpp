@@ -54,7 +54,7 @@ ChoiceInput choice_frame(const Frame& frame, const AnalyzerSettings& settings, i
           frame.background ? &*frame.background : nullptr,
           frame.place,
           frame.interval_s(),
-          frame.picture == Likeness::kFirst,
+          frame.picture == FrameComparison::kFirst,
           stream_ns,
           turn,
           settings.boxes.get()};
@@ -142,7 +142,7 @@ void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64
   if (settings.motion != MotionKind::kMean && frame.width() != 0) choice = choice_.choose(input);
   frame.choice = choice;
   frame.choice.object = nullptr;
-  if (frame.picture == Likeness::kFirst) {
+  if (frame.picture == FrameComparison::kFirst) {
     lost_frames_.reset();
     filter_.reset();
     washout_.reset();
@@ -154,7 +154,7 @@ void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64
   }
   frame.felt_object = felt_object(frame, settings.motion, choice);
   ImageMotion felt = motion_of_choice(frame, settings, input, choice);
-  if (frame.picture == Likeness::kSame) {
+  if (frame.picture == FrameComparison::kSame) {
     filter_.stop();
     washout_.reset();
     fade_.reset();

@@ -24,10 +24,10 @@ struct Frame : MeasuredFrame {
   /// Wanted by the controller, before any safety limit; turned and weakened as shown.
   Wrench wrench;
 
-  bool has_motion_before() const { return picture != Likeness::kFirst; }
+  bool has_motion_before() const { return picture != FrameComparison::kFirst; }
   /// Whether the frame repeats the previous picture, whose wrench continues; at rest none does.
   bool is_continuation() const {
-    return picture == Likeness::kWaiting && !wrench.stacked().isZero(0);
+    return picture == FrameComparison::kWaiting && !wrench.stacked().isZero(0);
   }
   void clear() {
     std::vector<FollowedPoint> kept_points = std::move(points);

@@ -12,8 +12,8 @@ namespace spidar {
 namespace {
 
 /// After so many pairs of pictures, a part of the picture shows whatever it may show: an object
-/// that is seen with one block only has been born (ObjectLife::kBornAfterBlocks).
-constexpr int kSettles_pairs = ObjectLife::kBornAfterBlocks;
+/// that is seen with one block only has been born (Track::kBornAfterBlocks).
+constexpr int kSettles_pairs = Track::kBornAfterBlocks;
 
 /// By less, on an average, the points of a picture at rest seem to move: blocks are right to a
 /// tenth of a pixel of the field.
@@ -61,7 +61,8 @@ void MotionAnalyzer::enter(const ImageView& picture) {
 }
 
 /// Reads the film in a picture, in which compare() then finds what moves.
-Likeness MotionAnalyzer::read(Measured& measured, const ImageView& film, bool may_wait) const {
+FrameComparison MotionAnalyzer::read(Measured& measured, const ImageView& film,
+                                     bool may_wait) const {
   return by_points() ? measured.tracker.track(film, may_wait).picture
                      : measured.reduced.read(film, may_wait);
 }
@@ -73,7 +74,7 @@ bool MotionAnalyzer::compare(Measured& measured, const ImageView& film, Measured
   if (by_points()) {
     const OpenCvTracker::Result& tracked = measured.tracker.result();
     frame.features = tracked.features;
-    is_compared = tracked.picture != Likeness::kFirst;
+    is_compared = tracked.picture != FrameComparison::kFirst;
     if (is_compared) {
       frame.points = tracked.points;
       frame.mean = mean_motion(tracked.points, frame.interval_ns);
@@ -88,7 +89,7 @@ bool MotionAnalyzer::compare(Measured& measured, const ImageView& film, Measured
 /// Shows the reduced picture to the finder. Where the film fills it, the analysis has made it.
 void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& film,
                                    int64_t running_ns) {
-  const bool scrolls = page_scroll_.look(film);
+  const bool scrolls = page_scroll_.update(film);
   const bool is_reduced =
       !by_points() && frame_.place == FilmPlace::whole(picture.width, picture.height);
   if (!is_reduced) {
@@ -155,19 +156,19 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   enter(picture);
   const ImageView film = part_of(picture, now_->area);
-  const Likeness likeness = read(*now_, film, cadence_.would_wait(running_ns));
+  const FrameComparison comparison = read(*now_, film, cadence_.would_wait(running_ns));
   if (finds_area()) look_for_film(picture, film, running_ns);
-  const bool has_before = likeness != Likeness::kFirst && last_running_ns_;
+  const bool has_before = comparison != FrameComparison::kFirst && last_running_ns_;
   last_running_ns_ = running_ns;
   Cadence::Step step;
   if (has_before) {
-    step = cadence_.see(likeness, running_ns,
-                        by_points() ? RepeatedPicture::Repeats() : now_->reduced.repeats());
+    step = cadence_.update(comparison, running_ns,
+                           by_points() ? RepeatedPicture::Repeats() : now_->reduced.repeats());
   } else {
     now_->motion.reset();
   }
   if (step.waits && frame_.place.is_known) {
-    frame_.picture = Likeness::kWaiting;
+    frame_.picture = FrameComparison::kWaiting;
     return false;
   }
   frame_.clear_motion();
@@ -179,7 +180,7 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   bool is_compared = compare(*now_, film, frame_, frame_.felt_object);
   if (finds_area()) is_compared = follow_film(picture, is_compared, running_ns);
   if (is_compared && has_before) {
-    frame_.picture = likeness;
+    frame_.picture = comparison;
   } else {
     cadence_.cut(running_ns);
     if (!by_points()) now_->reduced.cut();
@@ -221,8 +222,8 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
     return nullptr;
   }
   last_running_ns_ = running_ns;
-  const Cadence::Step step = cadence_.see(Likeness::kSame, running_ns);
-  frame_.picture = step.waits ? Likeness::kWaiting : Likeness::kSame;
+  const Cadence::Step step = cadence_.update(FrameComparison::kSame, running_ns);
+  frame_.picture = step.waits ? FrameComparison::kWaiting : FrameComparison::kSame;
   if (!step.waits) {
     take(step);
     renderer_.render(frame_, settings_, stream_ns_, turn_);

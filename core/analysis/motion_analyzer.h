@@ -24,7 +24,7 @@ namespace spidar {
 /// with what wrench (ForceRenderer). For one thread at a time.
 ///
 /// A frame that repeats the previous picture does not show whether anything moves. The frame waits
-/// (Likeness::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
+/// (FrameComparison::kWaiting) for up to Cadence::kRest_ns, or for as long as the film has repeated
 /// pictures before; after that it counts as rest.
 ///
 /// Where AreaFinder finds or guesses that the film is in another part of the picture than the one
@@ -89,7 +89,7 @@ class MotionAnalyzer {
   bool finds_area() const { return settings_.area.kind == AreaSetting::Kind::kAuto; }
   void enter(const ImageView& picture);
   void look_for_film(const ImageView& picture, const ImageView& film, int64_t running_ns);
-  Likeness read(Measured& measured, const ImageView& film, bool may_wait = false) const;
+  FrameComparison read(Measured& measured, const ImageView& film, bool may_wait = false) const;
   void take(const Cadence::Step& step);
   bool compare(Measured& measured, const ImageView& film, MeasuredFrame& frame,
                uint32_t felt) const;

@@ -142,9 +142,9 @@ bool Cadence::would_wait(int64_t time_ns) const {
   return next_ns <= std::max(kRest_ns, expected_ns() + frame_ns / 2);
 }
 
-Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
-                           const RepeatedPicture::Repeats& repeats) {
-  const bool repeated = picture == Likeness::kSame;
+Cadence::Step Cadence::update(FrameComparison picture, int64_t time_ns,
+                              const RepeatedPicture::Repeats& repeats) {
+  const bool repeated = picture == FrameComparison::kSame;
   const bool waits = repeated && would_wait(time_ns);
   const int64_t frame_ns = std::max<int64_t>(time_ns - frame_ns_, 1);
   frame_ns_ = time_ns;
@@ -159,7 +159,7 @@ Cadence::Step Cadence::see(Likeness picture, int64_t time_ns,
   frames_ = 1;
   has_changed_ = true;
   const bool is_compared = before.interval_ns <= kLongest_ns;
-  if (is_compared && picture == Likeness::kOther) remember(before);
+  if (is_compared && picture == FrameComparison::kOther) remember(before);
   const int64_t shown_for_ns = is_compared ? before.interval_ns : frame_ns;
   const int64_t learnt = learnt_ns();
   return {false, learnt > 0 ? learnt : shown_for_ns, shown_for_ns};

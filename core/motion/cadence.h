@@ -47,7 +47,8 @@ class Cadence {
   /// goes to cut() instead. `picture` is kSame, kOther, or kAlike, which here means a repeated
   /// picture that has waited long enough to be analysed. `repeats` marks the kOther frames that
   /// turned out to repeat the previous picture, newest (this frame) first.
-  Step see(Likeness picture, int64_t time_ns, const RepeatedPicture::Repeats& repeats = {});
+  Step update(FrameComparison picture, int64_t time_ns,
+              const RepeatedPicture::Repeats& repeats = {});
 
   /// When the latest picture was first shown.
   int64_t picture_ns() const { return picture_ns_; }

@@ -18,7 +18,7 @@ namespace spidar {
 /// What is measured in a frame, including which object is dominant; what is felt is chosen later.
 /// In a frame that waits, all members but `picture` are those of the previous picture.
 struct MeasuredFrame {
-  Likeness picture = Likeness::kFirst;
+  FrameComparison picture = FrameComparison::kFirst;
   /// All lengths are the film's, and positions are from its middle, unless stated otherwise.
   FilmPlace place;
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
@@ -39,7 +39,7 @@ struct MeasuredFrame {
   int height() const { return place.area.height; }
   double interval_s() const { return 1e-9 * static_cast<double>(interval_ns); }
   void clear_motion() {
-    picture = Likeness::kFirst;
+    picture = FrameComparison::kFirst;
     interval_ns = shown_for_ns = 0;
     points.clear();
     mean = {};

@@ -44,7 +44,7 @@ void MotionEstimator::report_points(const FieldPosition& position,
 
 bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
                                MeasuredFrame& frame, uint32_t felt) {
-  if (reduced.picture() == Likeness::kSame && field_.has_picture()) {
+  if (reduced.picture() == FrameComparison::kSame && field_.has_picture()) {
     field_.stand_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
     camera_.reset();

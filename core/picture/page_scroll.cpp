@@ -134,7 +134,7 @@ bool PageScroll::compare(const ImageView& picture) {
   return false;
 }
 
-bool PageScroll::look(const ImageView& picture) {
+bool PageScroll::update(const ImageView& picture) {
   const bool is_comparable =
       picture.width == width_ && picture.height == height_ && picture.sample.bytes == bytes_;
   if (!is_comparable) rests_.fill(kRests);

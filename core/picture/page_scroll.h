@@ -19,7 +19,7 @@ namespace spidar {
 class PageScroll {
  public:
   /// Whether the picture is the previous one scrolled; false for another size or format.
-  bool look(const ImageView& picture);
+  bool update(const ImageView& picture);
   void reset() { width_ = 0; }
 
   static constexpr int kPatch_bytes = 16;

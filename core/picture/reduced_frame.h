@@ -16,7 +16,7 @@ class ReducedFrame {
   /// Returns picture(). A frame that repeats the previous picture is skipped: the next one is
   /// compared with that picture. With `may_wait`, so is one that is equal within the noise of
   /// coding. Throws as require_usable() does.
-  Likeness read(const ImageView& frame, bool may_wait = false) {
+  FrameComparison read(const ImageView& frame, bool may_wait = false) {
     require_usable(frame);
     const bool is_comparable = frame.width == width_ && frame.height == height_;
     width_ = frame.width;
@@ -27,11 +27,11 @@ class ReducedFrame {
     base_.repeat_border();
     if (!is_comparable) {
       repeated_picture_.reset();
-      return picture_ = Likeness::kFirst;
+      return picture_ = FrameComparison::kFirst;
     }
     picture_ = repeated_picture_.compare(before_.view(), base_.view());
-    if (picture_ == Likeness::kAlike && may_wait) picture_ = Likeness::kSame;
-    if (picture_ == Likeness::kSame) std::swap(before_, base_);
+    if (picture_ == FrameComparison::kAlike && may_wait) picture_ = FrameComparison::kSame;
+    if (picture_ == FrameComparison::kSame) std::swap(before_, base_);
     return picture_;
   }
 
@@ -43,7 +43,7 @@ class ReducedFrame {
   int width() const { return width_; }  ///< of the frame, px
   int height() const { return height_; }
   /// kFirst after a frame of another size; kSame where this frame was skipped. Never kWaiting.
-  Likeness picture() const { return picture_; }
+  FrameComparison picture() const { return picture_; }
   /// Which of the latest frames repeated a picture, as far as known.
   RepeatedPicture::Repeats repeats() const { return repeated_picture_.repeats(); }
 
@@ -57,7 +57,7 @@ class ReducedFrame {
   int factor_ = 1;
   int width_ = 0;
   int height_ = 0;
-  Likeness picture_ = Likeness::kFirst;
+  FrameComparison picture_ = FrameComparison::kFirst;
   RepeatedPicture repeated_picture_;
 };
 

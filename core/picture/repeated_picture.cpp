@@ -143,13 +143,13 @@ void RepeatedPicture::cut() {
   changes_.clear();
 }
 
-Likeness RepeatedPicture::compare(const ImageView& before, const ImageView& now) {
+FrameComparison RepeatedPicture::compare(const ImageView& before, const ImageView& now) {
   const float change = largest_change(before, now);
   const bool alike = is_small(change);
   changes_.add(change);
   if (changes_.size() == kFrames) had_rhythm_ = false;
-  if (change == 0) return Likeness::kSame;
-  return alike ? Likeness::kAlike : Likeness::kOther;
+  if (change == 0) return FrameComparison::kSame;
+  return alike ? FrameComparison::kAlike : FrameComparison::kOther;
 }
 
 }  // namespace spidar

@@ -12,7 +12,7 @@
 namespace spidar {
 
 /// What a frame shows, compared with the previous picture.
-enum class Likeness : uint8_t {
+enum class FrameComparison : uint8_t {
   kFirst,    ///< there is nothing to compare with: the first frame, another size, or a cut
   kWaiting,  ///< the same picture, and the motion may continue
   kSame,     ///< the same picture, which is at rest
@@ -21,8 +21,8 @@ enum class Likeness : uint8_t {
 };
 
 /// Whether the frame repeats the previous picture, waiting or at rest.
-constexpr bool is_again(Likeness picture) {
-  return picture != Likeness::kFirst && picture != Likeness::kOther;
+constexpr bool is_again(FrameComparison picture) {
+  return picture != FrameComparison::kFirst && picture != FrameComparison::kOther;
 }
 
 /// Detects frames that repeat the previous picture, by comparing pictures of the same size.
@@ -44,7 +44,7 @@ class RepeatedPicture {
  public:
   /// Compares `now` with `before`; both have 8 bits. Call this for every frame, in order. kSame:
   /// the same pixels, kAlike or kOther.
-  Likeness compare(const ImageView& before, const ImageView& now);
+  FrameComparison compare(const ImageView& before, const ImageView& now);
 
   /// Call this when the next pictures are unrelated to the previous ones.
   void reset() {

@@ -171,7 +171,7 @@ struct OpenCvTracker::Impl {
 
 void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   result.picture = reduced.read(frame, may_wait);
-  if (result.picture == Likeness::kSame) {
+  if (result.picture == FrameComparison::kSame) {
     if (!may_wait) stand_still();
     return;
   }
@@ -182,14 +182,14 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
                               cv::Size(kWindow_px, kWindow_px), kMaxPyramidLevel, kWithDerivatives,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
   result.points.clear();
-  if (result.picture == Likeness::kFirst) {
+  if (result.picture == FrameComparison::kFirst) {
     features.clear();
   } else if (!follow()) {
     reduced.cut();
-    result.picture = Likeness::kFirst;
+    result.picture = FrameComparison::kFirst;
   }
   ++frames_since_selection;
-  const bool begins = result.picture == Likeness::kFirst;
+  const bool begins = result.picture == FrameComparison::kFirst;
   if (begins || settings_changed || selection_is_due()) select();
   result.features = static_cast<int>(features.size());
 }

@@ -51,7 +51,7 @@ class OpenCvTracker {
     std::vector<FollowedPoint> points;  ///< found in both frames; empty with kFirst
     int features = 0;                   ///< the points to look for in the next frame
     /// With kSame the next frame is compared with the same picture as this one. Never kWaiting.
-    Likeness picture = Likeness::kFirst;
+    FrameComparison picture = FrameComparison::kFirst;
   };
 
   explicit OpenCvTracker(const TrackerSettings& settings = {});

@@ -76,7 +76,7 @@ void frame_fields(const FrameReport& report, const FrameBuffer& buffer, FieldSin
   to.in(kInJson, "top", "px", area.y, kFilmArea);
   to.in(kInJson, "width", "px", area.width, kFilmArea);
   to.in(kInJson, "height", "px", area.height, kFilmArea);
-  to.in(kInJson, "restarted", "", frame.picture == Likeness::kFirst,
+  to.in(kInJson, "restarted", "", frame.picture == FrameComparison::kFirst,
         "the analysis began anew with this frame");
   to.in(kInMessage | kInJson, "repeated", "", is_again(frame.picture),
         "the frame shows the previous picture again; the previous wrench remains valid");

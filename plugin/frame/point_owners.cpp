@@ -99,7 +99,7 @@ void PointOwners::find(DrawnFrame& report) {
   report.felt = felt_objects(report);
   report.points.clear();
   report.lost.clear();
-  if (report.frame.picture == Likeness::kFirst) return reset();
+  if (report.frame.picture == FrameComparison::kFirst) return reset();
   const PicturePart film = report.film_part();
   const auto left_px = static_cast<float>(film.x);
   const auto top_px = static_cast<float>(film.y);

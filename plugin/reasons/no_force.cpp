@@ -156,7 +156,7 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion) {
   if (!frame.place.is_known) {
     return frame.place.is_page ? NoForceReason::kNoFilm : NoForceReason::kAreaUnknown;
   }
-  if (frame.picture == Likeness::kFirst) return NoForceReason::kNothingToCompare;
+  if (frame.picture == FrameComparison::kFirst) return NoForceReason::kNothingToCompare;
   if (size_N(frame.wrench) >= kFeltForce_N) return NoForceReason::kNone;
   if (is_again(frame.picture)) return NoForceReason::kRepeatedFrames;
   if (is_withheld(frame)) return NoForceReason::kNotChosen;

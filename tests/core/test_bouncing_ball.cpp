@@ -131,11 +131,11 @@ TEST(BouncingBall, ThatIsSmallIsFeltAgainSoonAfterItTurned) {
 
 TEST(BouncingBall, IsTheSameOnlyIfItIsKnownWellAndNoLayer) {
   constexpr double kSpeed_px = 6;
-  ObjectLife ball;
-  ball.state = ObjectLife::State::kHidden;
+  Track ball;
+  ball.state = Track::State::kHidden;
   ball.since_s = kFrame_s;
   ball.is_proven = true;
-  ball.blocks_seen = 4 * ObjectLife::kBornAfterBlocks;
+  ball.blocks_seen = 4 * Track::kBornAfterBlocks;
   ball.expected.velocity_px_s = {0, kSpeed_px / kFrame_s};
   Region after;
   after.relative_px = {0, -kSpeed_px};

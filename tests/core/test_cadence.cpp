@@ -8,7 +8,7 @@
 namespace spidar::test::cadence_test {
 namespace {
 
-using Shows = Likeness;
+using Shows = FrameComparison;
 
 constexpr double kSpeed_px_s = 100;
 
@@ -27,9 +27,9 @@ std::vector<double> intervals_ms(Cadence& cadence, double picture_Hz, double fra
     const bool again = picture == before;
     const bool is_seen = again && unseen-- <= 0;
     std::rotate(repeats.begin(), repeats.end() - 1, repeats.end());
-    repeats.front() = again;  // see() does not ask for this one
-    const Cadence::Step step = cadence.see(is_seen ? Shows::kSame : Shows::kOther,
-                                           std::llround(1e9 * n / frame_Hz), repeats);
+    repeats.front() = again;  // update() does not ask for this one
+    const Cadence::Step step = cadence.update(is_seen ? Shows::kSame : Shows::kOther,
+                                              std::llround(1e9 * n / frame_Hz), repeats);
     if (!step.waits && !again) {
       const double interval_s = 1e-9 * static_cast<double>(step.interval_ns);
       found.push_back(1e3 * interval_s);
@@ -76,7 +76,7 @@ TEST(Cadence, KeepsTheIntervalOverTheFirstRepetition) {
   cadence.cut(0);
   for (int n = 1; n < 8; ++n) {
     const bool again = n == 3;
-    const Cadence::Step step = cadence.see(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
+    const Cadence::Step step = cadence.update(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
     if (again) continue;
     EXPECT_EQ(step.interval_ns, kFrame_ns) << n;
   }
@@ -107,7 +107,7 @@ TEST(Cadence, WaitsForAsLongAsThePictureBeforeWasShown) {
   cadence.cut(0);
   for (int n = 1; n < 30; ++n) {
     const bool again = n % 3 != 0;
-    const Cadence::Step step = cadence.see(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
+    const Cadence::Step step = cadence.update(again ? Shows::kSame : Shows::kOther, n * kFrame_ns);
     if (n > 3) {
       EXPECT_EQ(step.waits, again) << n;
     }
@@ -124,7 +124,7 @@ TEST(Cadence, IsTheFrameIntervalWithoutRepeats) {
   for (int n = 0; n < 200; ++n) {
     const int64_t interval_ns = 5'000'000 + static_cast<int64_t>(random() % 60'000'000);
     time_ns += interval_ns;
-    const Cadence::Step step = cadence.see(Shows::kOther, time_ns);
+    const Cadence::Step step = cadence.update(Shows::kOther, time_ns);
     EXPECT_FALSE(step.waits);
     EXPECT_EQ(step.interval_ns, interval_ns);
     EXPECT_EQ(lost.correction(step.interval_ns, step.shown_for_ns,
@@ -145,7 +145,7 @@ TEST(Cadence, DistinguishesALostFrameFromARepeatedOne) {
       const bool again = n % 12 == 6;
       const bool after = n % 12 == 7;
       const Cadence::Step step =
-          cadence.see(again ? Shows::kSame : Shows::kOther, time_ns += kFrame_ns);
+          cadence.update(again ? Shows::kSame : Shows::kOther, time_ns += kFrame_ns);
       ASSERT_EQ(step.waits, again) << n;
       if (again) continue;
       const double moved_px = kSpeed_px_s * 1e-9 * kFrame_ns * (after && lost ? 2 : 1);
@@ -164,14 +164,14 @@ TEST(Cadence, WaitsNoLongerThanAMotionDoes) {
   cadence.cut(0);
   EXPECT_FALSE(cadence.would_wait(kFrame_ns)) << "after a cut nothing moves yet";
   int64_t time_ns = 0;
-  for (int n = 0; n < 5; ++n) cadence.see(Shows::kOther, time_ns += kFrame_ns);
+  for (int n = 0; n < 5; ++n) cadence.update(Shows::kOther, time_ns += kFrame_ns);
   const int64_t changed_ns = time_ns;
-  while (cadence.see(Shows::kSame, time_ns += kFrame_ns).waits) {
+  while (cadence.update(Shows::kSame, time_ns += kFrame_ns).waits) {
     ASSERT_LE(time_ns - changed_ns, Cadence::kRest_ns);
   }
   EXPECT_GT(time_ns - changed_ns, 3 * kFrame_ns) << "24 in 60 needs two";
   for (int n = 0; n < 100; ++n) {
-    const Cadence::Step step = cadence.see(Shows::kSame, time_ns += kFrame_ns);
+    const Cadence::Step step = cadence.update(Shows::kSame, time_ns += kFrame_ns);
     EXPECT_FALSE(step.waits);
     EXPECT_EQ(step.interval_ns, kFrame_ns) << "still frames are like any";
   }

@@ -69,7 +69,7 @@ TEST(DrawnBox, MovesAsTheObjectDoes) {
     const Jumps jumps = jumps_in(width, height);
     EXPECT_GT(jumps.frames, kFrames / 2);
     // A corner is less than a block away from that of the blocks, which jumps by up to two, and
-    // goes a tenth of the way (ObjectLife::kBoxSettles_s); its motion is known to a pixel a frame.
+    // goes a tenth of the way (Track::kBoxSettles_s); its motion is known to a pixel a frame.
     EXPECT_LT(jumps.drawn_px, 0.1 * 3 * kBlock_px + 1);
     largest_change_px = std::max(largest_change_px, jumps.size_px);
   }

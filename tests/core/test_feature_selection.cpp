@@ -45,7 +45,7 @@ TEST(FeatureSelection, AFlatPictureHasNone) {
     const OpenCvTracker::Result& again = tracker.track(picture.view());
     EXPECT_EQ(again.features, 0);
     EXPECT_TRUE(again.points.empty());
-    EXPECT_NE(again.picture, Likeness::kFirst);
+    EXPECT_NE(again.picture, FrameComparison::kFirst);
   }
 }
 

@@ -31,7 +31,7 @@ TEST_P(HardFrames, ShowNoMotion) {
       MeasuredFrame scene;
       scene.interval_ns = kFrame_ns;
       const bool is_compared = estimator.estimate(frame, reduced, scene);
-      if (tracked.picture == Likeness::kFirst) {
+      if (tracked.picture == FrameComparison::kFirst) {
         EXPECT_TRUE(tracked.points.empty()) << "frame " << n;
       }
       const ImageMotion mean = mean_motion(tracked.points, kFrame_ns);

@@ -70,7 +70,7 @@ std::vector<Picture> drawn(const Scene& scene, int pictures) {
 int scrolls_of(const std::vector<Picture>& pictures) {
   PageScroll scroll;
   return static_cast<int>(std::count_if(pictures.begin(), pictures.end(), [&](const Picture& seen) {
-    return scroll.look(seen.view());
+    return scroll.update(seen.view());
   }));
 }
 

@@ -12,7 +12,7 @@ namespace spidar::test::repeated_picture_test {
 namespace {
 
 using test::Picture;
-using Kind = Likeness;
+using Kind = FrameComparison;
 
 /// Noise of `grey` levels up and down, each as likely.
 Picture moved(double dx, uint32_t noise_seed = 0, uint32_t grey = 2) {

@@ -29,7 +29,7 @@ TEST(OpenCvTracker, FindsAKnownTranslationToAPartOfAPixel) {
     ASSERT_GE(looked_for, 50);
     for (int n = 1; n <= 3; ++n) {
       const OpenCvTracker::Result& frame = tracker.track(scene.frame(n));
-      ASSERT_NE(frame.picture, Likeness::kFirst);
+      ASSERT_NE(frame.picture, FrameComparison::kFirst);
       // All but those that leave: the fraction that leaves a frame is at most the displaced margin.
       const double margin = std::abs(p.dx_px) / p.width + std::abs(p.dy_px) / p.height;
       EXPECT_GE(static_cast<double>(frame.points.size()), looked_for * (0.9 - 2 * margin)) << n;
@@ -141,13 +141,13 @@ TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
   MovingTexture other(640, 360, -3, 1, 99);
   OpenCvTracker tracker;
   tracker.track(scene.frame(0));
-  EXPECT_NE(tracker.track(scene.frame(1)).picture, Likeness::kFirst);
+  EXPECT_NE(tracker.track(scene.frame(1)).picture, FrameComparison::kFirst);
   const OpenCvTracker::Result& cut = tracker.track(other.frame(2));
-  EXPECT_EQ(cut.picture, Likeness::kFirst);
+  EXPECT_EQ(cut.picture, FrameComparison::kFirst);
   EXPECT_TRUE(cut.points.empty());
   EXPECT_GT(cut.features, 100);
   const OpenCvTracker::Result& after = tracker.track(other.frame(3));
-  EXPECT_NE(after.picture, Likeness::kFirst);
+  EXPECT_NE(after.picture, FrameComparison::kFirst);
   ASSERT_GE(after.points.size(), 50u);
   for (const FollowedPoint& point : after.points) EXPECT_NEAR(dx(point), -3, kPointTolerance_px);
 }
@@ -195,9 +195,9 @@ TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
       picture.fill([](double x, double y) { return std::fmod(x * y / 4096, 200); });
     }
     OpenCvTracker tracker;
-    EXPECT_EQ(tracker.track(picture.view()).picture, Likeness::kFirst);
+    EXPECT_EQ(tracker.track(picture.view()).picture, FrameComparison::kFirst);
     const OpenCvTracker::Result& frame = tracker.track(picture.view());
-    EXPECT_NE(frame.picture, Likeness::kFirst) << size.width << "x" << size.height;
+    EXPECT_NE(frame.picture, FrameComparison::kFirst) << size.width << "x" << size.height;
     EXPECT_GE(frame.points.size(), 1u) << size.width << "x" << size.height;
     for (const FollowedPoint& point : frame.points) {
       EXPECT_NEAR(dx(point), 0, 1e-3);

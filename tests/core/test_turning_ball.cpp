@@ -94,20 +94,20 @@ TEST(TurningBall, AmongFourIsKnownLikeTheOneThatIsFelt) {
 TEST(SteadyRate, ComesInAboveItsErrorAndFadesWithoutEvidence) {
   SteadyRate rate;
   constexpr double kFrame_s = 0.04;
-  rate.see({0.001, 0.001, 0}, kFrame_s);
+  rate.update({0.001, 0.001, 0}, kFrame_s);
   EXPECT_EQ(rate.rate_1_s(), 0);  // within the error
-  for (int n = 0; n < 50; ++n) rate.see({0.04, 0.001, 0}, kFrame_s);
+  for (int n = 0; n < 50; ++n) rate.update({0.04, 0.001, 0}, kFrame_s);
   const double full_1_s = rate.rate_1_s();
   EXPECT_NEAR(full_1_s, 1, 0.01);
   // An error of 3, of which 2.45 · 3 are the bound b: a change by 2 counts for 4 / (4 + b²) = 0.07.
-  rate.see({-0.04, 0.12, 0}, kFrame_s);
+  rate.update({-0.04, 0.12, 0}, kFrame_s);
   EXPECT_GT(rate.rate_1_s(), full_1_s / 2);
-  for (int n = 0; n < 50; ++n) rate.see({0.04, 0.001, 0}, kFrame_s);
+  for (int n = 0; n < 50; ++n) rate.update({0.04, 0.001, 0}, kFrame_s);
   const double last_1_s = rate.rate_1_s();
-  rate.see(Estimate(), kFrame_s);
+  rate.update(Estimate(), kFrame_s);
   // The bound of the error, 2.45 · 0.025, takes at most its square of what is left, 0.67.
   EXPECT_NEAR(rate.rate_1_s() / last_1_s, std::exp(-kFrame_s / SteadyRate::kFades_s), 0.01);
-  for (int n = 0; n < 12; ++n) rate.see(Estimate(), kFrame_s);
+  for (int n = 0; n < 12; ++n) rate.update(Estimate(), kFrame_s);
   EXPECT_EQ(rate.rate_1_s(), 0);
 }
 

@@ -39,7 +39,7 @@ TEST(NoForceReason, TorqueCountsByItsArm) {
 /// A frame in which nothing is felt, with points enough.
 Frame unfelt() {
   Frame frame;
-  frame.picture = Likeness::kOther;
+  frame.picture = FrameComparison::kOther;
   frame.shown_height_px = 480;
   frame.interval_ns = kFrame_ns;
   frame.features = 100;

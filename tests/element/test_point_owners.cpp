@@ -9,7 +9,7 @@ namespace {
 
 DrawnFrame report_of(const std::vector<FollowedPoint>& points, const PicturePart& visible) {
   DrawnFrame report;
-  report.frame.picture = Likeness::kOther;
+  report.frame.picture = FrameComparison::kOther;
   report.frame.points = points;
   report.frame.interval_ns = 40'000'000;
   report.visible = visible;

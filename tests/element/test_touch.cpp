@@ -29,7 +29,7 @@ Frame some_analysis() {
   Frame analysis;
   analysis.place = FilmPlace::whole(320, 240);
   analysis.interval_ns = static_cast<int64_t>(kFrame);
-  analysis.picture = Likeness::kOther;
+  analysis.picture = FrameComparison::kOther;
   return analysis;
 }
 
@@ -62,8 +62,8 @@ TEST(TouchedMotion, IsThatOfTheObjectUnderTheFingerElseOfTheBackground) {
   EXPECT_NEAR((at(70, 30) - Eigen::Vector2d(-2, 1)).norm(), 0, kRounding);
   EXPECT_NEAR((at(0, 100) - Eigen::Vector2d(3, 1)).norm(), 0, kRounding) << "beside them";
   EXPECT_NEAR((at(-100, 0) - Eigen::Vector2d(2, 0)).norm(), 0, kRounding) << "out of sight";
-  for (const Likeness says_nothing :
-       {Likeness::kFirst, Likeness::kWaiting, Likeness::kSame, Likeness::kAlike}) {
+  for (const FrameComparison says_nothing : {FrameComparison::kFirst, FrameComparison::kWaiting,
+                                             FrameComparison::kSame, FrameComparison::kAlike}) {
     Frame still = analysis;
     still.picture = says_nothing;
     EXPECT_EQ(filter::touched_displacement_px(still, {0.5, 0.5}).norm(), 0);

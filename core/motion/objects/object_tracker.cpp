@@ -22,7 +22,7 @@ constexpr double kRemainingFraction = 0.5;
 }  // namespace
 
 ObjectTracker::ObjectTracker(std::shared_ptr<uint32_t> next_id) : next_id_(std::move(next_id)) {
-  lives_.reserve(kMaxObjects);
+  tracks_.reserve(kMaxObjects);
   region_keys_.reserve(RegionFinder::kMaxRegions);
   order_.reserve(RegionFinder::kMaxRegions);
   objects_.reserve(kMaxObjects);
@@ -31,22 +31,22 @@ ObjectTracker::ObjectTracker(std::shared_ptr<uint32_t> next_id) : next_id_(std::
 void ObjectTracker::reset() {
   moving_.reset();
   owners_.clear();
-  lives_.clear();
+  tracks_.clear();
   objects_.clear();
 }
 
 /// The object to which most blocks of the region belonged; null when most belonged to none.
-ObjectLife* ObjectTracker::owner_of(int16_t region) {
-  ObjectLife* best = nullptr;
+Track* ObjectTracker::owner_of(int16_t region) {
+  Track* best = nullptr;
   int most = 0;
-  for (ObjectLife& life : lives_) {
+  for (Track& track : tracks_) {
     int votes = 0;
     for (size_t i = 0; i < owners_before_.size(); ++i) {
-      votes += finder_.labels()[i] == region && owners_before_[i] == life.key;
+      votes += finder_.labels()[i] == region && owners_before_[i] == track.key;
     }
     if (votes > most) {
       most = votes;
-      best = &life;
+      best = &track;
     }
   }
   return best;
@@ -54,18 +54,18 @@ ObjectLife* ObjectTracker::owner_of(int16_t region) {
 
 /// The invisible object that is expected nearest to the region with a similar motion, or that has
 /// bounced and may be there; null when there is none.
-ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
-  ObjectLife* best = nullptr;
+Track* ObjectTracker::expected_at(const Region& region, const FieldInFrame& frame) {
+  Track* best = nullptr;
   double nearest_px = 0;
-  for (ObjectLife& life : lives_) {
-    if (life.is_seen() || !life.is_born()) continue;
-    const Eigen::Vector2d sides_px = life.expected.sides_px + region.high_px - region.low_px;
-    const Eigen::Vector2d apart_px = (life.expected.position_px - region.position_px).cwiseAbs();
-    const bool goes_on = life.moves_like(region, frame.interval_s) &&
+  for (Track& track : tracks_) {
+    if (track.is_seen() || !track.is_born()) continue;
+    const Eigen::Vector2d sides_px = track.expected.sides_px + region.high_px - region.low_px;
+    const Eigen::Vector2d apart_px = (track.expected.position_px - region.position_px).cwiseAbs();
+    const bool goes_on = track.moves_like(region, frame.interval_s) &&
                          (apart_px.array() < kReach * sides_px.array()).all();
-    if (!goes_on && !life.has_bounced_to(region, frame.interval_s)) continue;
+    if (!goes_on && !track.has_bounced_to(region, frame.interval_s)) continue;
     if (best && apart_px.norm() >= nearest_px) continue;
-    best = &life;
+    best = &track;
     nearest_px = apart_px.norm();
   }
   return best;
@@ -73,45 +73,45 @@ ObjectLife* ObjectTracker::expected_at(const Region& region, const FieldInFrame&
 
 /// The key of a new object; 0 when there are too many.
 uint32_t ObjectTracker::create(const Region& region) {
-  if (lives_.size() >= kMaxObjects) return 0;
-  lives_.emplace_back();
-  ObjectLife& life = lives_.back();
-  life.key = next_key_++;
-  life.region = region;
-  return life.key;
+  if (tracks_.size() >= kMaxObjects) return 0;
+  tracks_.emplace_back();
+  Track& track = tracks_.back();
+  track.key = next_key_++;
+  track.region = region;
+  return track.key;
 }
 
 /// How many of the former blocks of an object, which now do not clearly move by themselves, are
 /// found in the picture before and are not plain; nothing unless they are most of its usual blocks.
-std::optional<int> ObjectTracker::resting_blocks(const ObjectLife& life,
+std::optional<int> ObjectTracker::resting_blocks(const Track& track,
                                                  const BlockField& field) const {
   int blocks = 0, found = 0;
   for (size_t i = 0; i < owners_before_.size(); ++i) {
-    if (owners_before_[i] != life.key || finder_.labels()[i] != kNoRegion) continue;
+    if (owners_before_[i] != track.key || finder_.labels()[i] != kNoRegion) continue;
     ++blocks;
     found += (*relative_)[i].shows_motion || field.match_of(i) == BlockField::Match::kFound;
   }
-  if (blocks < kRemainingFraction * life.expected.blocks) return std::nullopt;
+  if (blocks < kRemainingFraction * track.expected.blocks) return std::nullopt;
   return found;
 }
 
-/// Whether a region is enough to show an object, `life` if that is not null. A single block is only
-/// enough for the rest of a known object, and for a new object if the block lasts. Where most of a
-/// known object stands still beside the block, the object comes to rest: the block is its rim.
-bool ObjectTracker::is_enough(const Region& region, const ObjectLife* life,
+/// Whether a region is enough to show an object, `track` if that is not null. A single block is
+/// only enough for the rest of a known object, and for a new object if the block lasts. Where most
+/// of a known object stands still beside the block, the object comes to rest: the block is its rim.
+bool ObjectTracker::is_enough(const Region& region, const Track* track,
                               const BlockField& field) const {
   if (region.blocks >= kMinBlocks) return true;
-  if (!life || !life->is_born()) return region.lasts;
-  const bool is_rim = life->is_rim(region) && resting_blocks(*life, field);
-  return !life->is_layer && !is_rim;
+  if (!track || !track->is_born()) return region.lasts;
+  const bool is_rim = track->is_rim(region) && resting_blocks(*track, field);
+  return !track->is_layer && !is_rim;
 }
 
 /// Assigns each region to an object. The largest of several regions of an object counts.
 void ObjectTracker::claim(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_keys_.assign(regions.size(), 0);
-  for (ObjectLife& life : lives_) {
-    if (life.is_seen()) life.turn(ObjectLife::State::kHidden);
+  for (Track& track : tracks_) {
+    if (track.is_seen()) track.turn(Track::State::kHidden);
   }
   order_.resize(regions.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
@@ -119,51 +119,51 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
             [&](size_t a, size_t b) { return regions[a].blocks > regions[b].blocks; });
   for (const size_t k : order_) {
     const Region& region = regions[k];
-    ObjectLife* life = owner_of(static_cast<int16_t>(k));
-    if (life && life->is_seen()) {
-      if (life->moves_like(region, frame.interval_s)) {
-        region_keys_[k] = life->key;
+    Track* track = owner_of(static_cast<int16_t>(k));
+    if (track && track->is_seen()) {
+      if (track->moves_like(region, frame.interval_s)) {
+        region_keys_[k] = track->key;
         continue;
       }
-      life = nullptr;
+      track = nullptr;
     }
-    if (!life || !life->is_born()) {
-      ObjectLife* back = region.blocks < kMinBlocks ? nullptr : expected_at(region, frame);
+    if (!track || !track->is_born()) {
+      Track* back = region.blocks < kMinBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
-      if (back || (life && !life->moves_like(region, frame.interval_s))) life = back;
+      if (back || (track && !track->moves_like(region, frame.interval_s))) track = back;
     }
-    if (!is_enough(region, life, frame.field)) continue;
-    if (!life) {
+    if (!is_enough(region, track, frame.field)) continue;
+    if (!track) {
       region_keys_[k] = create(region);
       continue;
     }
-    life->turn(ObjectLife::State::kSeen);
-    life->region = region;
-    region_keys_[k] = life->key;
+    track->turn(Track::State::kSeen);
+    track->region = region;
+    region_keys_[k] = track->key;
   }
 }
 
 /// Computes position and velocity in the frame from those of the region in the field's picture.
-void ObjectTracker::position(ObjectLife& life, const FieldInFrame& frame) const {
-  MovingObject& object = life.object;
-  const Region& region = life.region;
+void ObjectTracker::position(Track& track, const FieldInFrame& frame) const {
+  MovingObject& object = track.object;
+  const Region& region = track.region;
   object.position_px = frame.scale * region.position_px + frame.offset_px;
   object.size_px = frame.scale * (region.high_px - region.low_px);
-  object.low_off_px = frame.scale * (life.low_px - region.position_px) + object.size_px / 2;
-  object.high_off_px = frame.scale * (life.high_px - region.position_px) - object.size_px / 2;
+  object.low_off_px = frame.scale * (track.low_px - region.position_px) + object.size_px / 2;
+  object.high_off_px = frame.scale * (track.high_px - region.position_px) - object.size_px / 2;
   object.area_px2 = frame.scale * frame.scale * region.blocks * kBlockArea_px;
-  object.relative_px_s = frame.scale * life.velocity_px_s;
+  object.relative_px_s = frame.scale * track.velocity_px_s;
   object.on_screen_px_s =
       object.relative_px_s + frame.scale * region.background_px / frame.interval_s;
 }
 
-ObjectMotion ObjectTracker::measure(ObjectLife& life, const FieldInFrame& frame) {
-  MovingObject& object = life.object;
-  const ObjectMotion found = meter_.measure(life.key, life.region, evidence_in(frame));
-  life.region.relative_px = found.relative_px;
+ObjectMotion ObjectTracker::measure(Track& track, const FieldInFrame& frame) {
+  MovingObject& object = track.object;
+  const ObjectMotion found = meter_.measure(track.key, track.region, evidence_in(frame));
+  track.region.relative_px = found.relative_px;
   object.points = found.points;
   object.model = found.model.kind;
-  turn(life, found, frame);
+  turn(track, found, frame);
   return found;
 }
 
@@ -172,124 +172,125 @@ ObjectMotion ObjectTracker::measure(ObjectLife& life, const FieldInFrame& frame)
 void ObjectTracker::choose_turned(uint32_t felt) {
   felt_key_ = 0;
   uint32_t first = 0, next = 0;
-  for (const ObjectLife& life : lives_) {
-    if (!life.is_seen() || !life.is_born() || life.is_layer) continue;
-    if (felt != 0 && life.object.id == felt) {
-      felt_key_ = life.key;
+  for (const Track& track : tracks_) {
+    if (!track.is_seen() || !track.is_born() || track.is_layer) continue;
+    if (felt != 0 && track.object.id == felt) {
+      felt_key_ = track.key;
       continue;
     }
-    if (first == 0) first = life.key;
-    if (next == 0 && life.key > turned_key_) next = life.key;
+    if (first == 0) first = track.key;
+    if (next == 0 && track.key > turned_key_) next = track.key;
   }
   turned_key_ = next != 0 ? next : first;
 }
 
 /// Measures rotation and growth, unless the object is not felt: it is not born yet, or is a layer
 /// of the scene.
-void ObjectTracker::turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame) {
-  if (!life.is_born() || life.is_layer) return life.turn_unseen(frame.interval_s);
-  if (life.key != felt_key_ && life.key != turned_key_) return;
-  const Turn as_before{life.roll.expected(frame.interval_s),
-                       life.growth.expected(frame.interval_s)};
-  const Turn turn = turns_.measure(life.key, life.region, found, as_before, evidence_in(frame));
-  life.roll.see(turn.roll_rad, frame.interval_s);
-  life.growth.see(turn.growth, frame.interval_s);
-  life.object.roll_rad_s = life.roll.rate_1_s();
-  life.object.growth_1_s = life.growth.rate_1_s();
+void ObjectTracker::turn(Track& track, const ObjectMotion& found, const FieldInFrame& frame) {
+  if (!track.is_born() || track.is_layer) return track.turn_unseen(frame.interval_s);
+  if (track.key != felt_key_ && track.key != turned_key_) return;
+  const Turn as_before{track.roll.expected(frame.interval_s),
+                       track.growth.expected(frame.interval_s)};
+  const Turn turn = turns_.measure(track.key, track.region, found, as_before, evidence_in(frame));
+  track.roll.update(turn.roll_rad, frame.interval_s);
+  track.growth.update(turn.growth, frame.interval_s);
+  track.object.roll_rad_s = track.roll.rate_1_s();
+  track.object.growth_1_s = track.growth.rate_1_s();
 }
 
 /// How far blocks outside an object are from the background in the direction in which it moves, as
 /// a standard deviation: in a scene with depth, half of the picture may move against any single
 /// model of the background. A region that does not stand out from that is not an object.
-double ObjectTracker::noise_around(const ObjectLife& life) {
+double ObjectTracker::noise_around(const Track& track) {
   // Where few blocks showed how the camera moves, those with texture may all be an object's rim.
   if (background_->is_of_few) return background_->sigma_px;
   around_px_.clear();
   for (size_t i = 0; i < owners_.size(); ++i) {
     const RelativeBlock& block = (*relative_)[i];
-    if (owners_[i] == life.key || !block.shows_motion || block.was_outside ||
+    if (owners_[i] == track.key || !block.shows_motion || block.was_outside ||
         moving_.burned_in().contains(i)) {
       continue;
     }
     around_px_.push_back(block.moved_px);
   }
   parallax_.measure(around_px_);
-  return parallax_.sigma_px(life.region.relative_px);
+  return parallax_.sigma_px(track.region.relative_px);
 }
 
 /// Whether something else is in the place of most of an object: the visible part is a rim, and most
 /// of its blocks are not found in the picture before. Their motions are errors.
-bool ObjectTracker::has_vanished(const ObjectLife& life, const FieldInFrame& frame) const {
-  return life.is_rim(life.region) &&
-         frame.field.are_lost([&](size_t block) { return owners_[block] == life.key; });
+bool ObjectTracker::has_vanished(const Track& track, const FieldInFrame& frame) const {
+  return track.is_rim(track.region) &&
+         frame.field.are_lost([&](size_t block) { return owners_[block] == track.key; });
 }
 
-void ObjectTracker::observe(ObjectLife& life, const FieldInFrame& frame) {
-  const ObjectMotion found = measure(life, frame);
-  const Eigen::Vector2d velocity_px_s = has_vanished(life, frame)
-                                            ? life.expected.velocity_px_s
-                                            : life.region.relative_px / frame.interval_s;
-  const bool is_new = life.blocks_seen == 0;
-  if (is_new) life.velocity_px_s = velocity_px_s;
+void ObjectTracker::observe(Track& track, const FieldInFrame& frame) {
+  const ObjectMotion found = measure(track, frame);
+  const Eigen::Vector2d velocity_px_s = has_vanished(track, frame)
+                                            ? track.expected.velocity_px_s
+                                            : track.region.relative_px / frame.interval_s;
+  const bool is_new = track.blocks_seen == 0;
+  if (is_new) track.velocity_px_s = velocity_px_s;
   // Smoothing removes motion that an error explains, which delays the rest by a frame or two.
-  const double error_px = bound_.own_px(life.key, found, evidence_in(frame));
-  const double news_px = (velocity_px_s - life.velocity_px_s).norm() * frame.interval_s;
+  const double error_px = bound_.own_px(track.key, found, evidence_in(frame));
+  const double news_px = (velocity_px_s - track.velocity_px_s).norm() * frame.interval_s;
   const double both_px2 = news_px * news_px + error_px * error_px;
   const double newest = both_px2 > 0 ? news_px * news_px / both_px2 : 1;
-  life.velocity_px_s += newest * (velocity_px_s - life.velocity_px_s);
-  const double late_px_s = (velocity_px_s - life.velocity_px_s).norm();
-  life.expect(frame.interval_s);
-  life.blocks_seen += std::min(life.region.blocks, ObjectLife::kBornAfterBlocks - 1);
-  life.object.has_left = false;
+  track.velocity_px_s += newest * (velocity_px_s - track.velocity_px_s);
+  const double late_px_s = (velocity_px_s - track.velocity_px_s).norm();
+  track.expect(frame.interval_s);
+  track.blocks_seen += std::min(track.region.blocks, Track::kBornAfterBlocks - 1);
+  track.object.has_left = false;
   if (is_new) {
-    life.low_px = life.region.low_px;
-    life.high_px = life.region.high_px;
+    track.low_px = track.region.low_px;
+    track.high_px = track.region.high_px;
   } else {
-    life.move_box(frame.interval_s);
-    life.draw_box_to(life.region, frame.interval_s);
+    track.move_box(frame.interval_s);
+    track.draw_box_to(track.region, frame.interval_s);
   }
-  position(life, frame);
-  MovingObject& object = life.object;
-  const double noise_px = camera_moves_ ? noise_around(life) : 0;
-  life.evidence.add(life.region.relative_px, life.region.background_px, noise_px, frame.interval_s);
-  life.is_proven |= salience(life.region, life.evidence, camera_moves_, false) > 0;
-  object.prominence = salience(life.region, life.evidence, camera_moves_, life.is_proven);
-  life.is_layer = object.prominence == 0;
-  if (!life.is_born() || life.is_layer) return;
-  const double most_px = bound_.px(life.key, life.region, found, evidence_in(frame));
+  position(track, frame);
+  MovingObject& object = track.object;
+  const double noise_px = camera_moves_ ? noise_around(track) : 0;
+  track.evidence.add(track.region.relative_px, track.region.background_px, noise_px,
+                     frame.interval_s);
+  track.is_proven |= salience(track.region, track.evidence, camera_moves_, false) > 0;
+  object.prominence = salience(track.region, track.evidence, camera_moves_, track.is_proven);
+  track.is_layer = object.prominence == 0;
+  if (!track.is_born() || track.is_layer) return;
+  const double most_px = bound_.px(track.key, track.region, found, evidence_in(frame));
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-void ObjectTracker::stay(ObjectLife& life, const FieldInFrame& frame) {
+void ObjectTracker::stay(Track& track, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
-    const bool is_its = owners_before_[i] == life.key && finder_.labels()[i] == kNoRegion;
-    if (is_its) owners_[i] = life.key;
+    const bool is_its = owners_before_[i] == track.key && finder_.labels()[i] == kNoRegion;
+    if (is_its) owners_[i] = track.key;
   }
-  life.expected.velocity_px_s.setZero();
-  life.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
+  track.expected.velocity_px_s.setZero();
+  track.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
 /// Handles a frame in which nothing is known to move by itself at the object's position. If most of
 /// its usual blocks were there before, the object has come to rest there. If only a rim was
 /// visible, the object is invisible and continues with its last motion.
-void ObjectTracker::miss(ObjectLife& life, const FieldInFrame& frame) {
-  MovingObject& object = life.object;
-  if (life.since_s == 0) object.has_left = life.has_left(frame.interval_s);
-  object.points = background_->is_known ? resting_blocks(life, frame.field).value_or(0) : 0;
+void ObjectTracker::miss(Track& track, const FieldInFrame& frame) {
+  MovingObject& object = track.object;
+  if (track.since_s == 0) object.has_left = track.has_left(frame.interval_s);
+  object.points = background_->is_known ? resting_blocks(track, frame.field).value_or(0) : 0;
   if (object.points > 0) {
-    life.turn(ObjectLife::State::kRests);
-    stay(life, frame);
+    track.turn(Track::State::kRests);
+    stay(track, frame);
   } else {
-    life.turn(ObjectLife::State::kHidden);
+    track.turn(Track::State::kHidden);
   }
-  life.since_s += frame.interval_s;
-  life.go_on_unseen(frame.interval_s);
-  life.region.position_px = life.expected.position_px;
-  life.velocity_px_s = life.expected.velocity_px_s;
-  life.move_box(frame.interval_s);
-  life.turn_unseen(frame.interval_s);
+  track.since_s += frame.interval_s;
+  track.extrapolate(frame.interval_s);
+  track.region.position_px = track.expected.position_px;
+  track.velocity_px_s = track.expected.velocity_px_s;
+  track.move_box(frame.interval_s);
+  track.turn_unseen(frame.interval_s);
   object.prominence = 0;
-  position(life, frame);
+  position(track, frame);
 }
 
 const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame,
@@ -305,8 +306,8 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     owners_before_[i] = owners_[field.origin_of(i)];
     const uint32_t owner = owners_before_[i];
     expected_[i] =
-        owner != 0 && std::any_of(lives_.begin(), lives_.end(), [&](const ObjectLife& life) {
-          return life.key == owner && life.is_born();
+        owner != 0 && std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+          return track.key == owner && track.is_born();
         });
   }
   background_ = &background;
@@ -314,7 +315,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   camera_moves_ = background.model.kind != ModelKind::kStill;
 
   if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
-    for (ObjectLife& life : lives_) life.is_proven = false;
+    for (Track& track : tracks_) track.is_proven = false;
   }
   claim(frame);
   for (size_t i = 0; i < n; ++i) {
@@ -322,24 +323,24 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
   }
   choose_turned(felt);
-  for (ObjectLife& life : lives_) {
-    if (life.is_seen()) {
-      observe(life, frame);
+  for (Track& track : tracks_) {
+    if (track.is_seen()) {
+      observe(track, frame);
     } else {
-      miss(life, frame);
+      miss(track, frame);
     }
   }
-  const auto is_over = [](const ObjectLife& life) {
-    return (!life.is_born() && !life.is_seen()) || life.since_s > kForgotten_s;
+  const auto is_over = [](const Track& track) {
+    return (!track.is_born() && !track.is_seen()) || track.since_s > kForgotten_s;
   };
-  lives_.erase(std::remove_if(lives_.begin(), lives_.end(), is_over), lives_.end());
+  tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), is_over), tracks_.end());
 
   objects_.clear();
-  for (ObjectLife& life : lives_) {
-    if (!life.is_born() || life.is_layer) continue;
-    if (life.object.id == 0) life.object.id = (*next_id_)++;
-    objects_.push_back(life.object);
-    if (life.state != ObjectLife::State::kHidden) continue;
+  for (Track& track : tracks_) {
+    if (!track.is_born() || track.is_layer) continue;
+    if (track.object.id == 0) track.object.id = (*next_id_)++;
+    objects_.push_back(track.object);
+    if (track.state != Track::State::kHidden) continue;
     objects_.back().relative_px_s.setZero();
     objects_.back().on_screen_px_s.setZero();
   }

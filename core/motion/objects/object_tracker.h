@@ -24,7 +24,7 @@
 namespace spidar {
 
 /// The state of an object that is followed from frame to frame.
-struct ObjectLife {
+struct Track {
   enum class State : uint8_t {
     kSeen,    ///< a region of this frame shows it
     kRests,   ///< most of it is where it was, and nothing there clearly moves
@@ -136,7 +136,7 @@ struct ObjectLife {
     object.roll_rad_s = object.growth_1_s = 0;
   }
   /// Advances the expected position.
-  void go_on_unseen(double interval_s) {
+  void extrapolate(double interval_s) {
     expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
   }
   /// Stores the state for a time when the object is invisible. Its usual number of blocks rises at
@@ -146,7 +146,7 @@ struct ObjectLife {
     const double forgotten = std::min(1.0, interval_s / kForgotten_s);
     expected.blocks = std::max(blocks, expected.blocks + forgotten * (blocks - expected.blocks));
     if (is_rim(region)) {  // the rest of it is hidden
-      go_on_unseen(interval_s);
+      extrapolate(interval_s);
       return;
     }
     expected.position_px = region.position_px;
@@ -204,28 +204,28 @@ class ObjectTracker {
   /// Call this after a cut or a seek.
   void reset();
 
-  static constexpr double kForgotten_s = ObjectLife::kForgotten_s;
+  static constexpr double kForgotten_s = Track::kForgotten_s;
   static constexpr size_t kMaxObjects = 16;
 
  private:
   void claim(const FieldInFrame& frame);
-  ObjectLife* owner_of(int16_t region);
-  ObjectLife* expected_at(const Region& region, const FieldInFrame& frame);
-  bool is_enough(const Region& region, const ObjectLife* life, const BlockField& field) const;
+  Track* owner_of(int16_t region);
+  Track* expected_at(const Region& region, const FieldInFrame& frame);
+  bool is_enough(const Region& region, const Track* track, const BlockField& field) const;
   uint32_t create(const Region& region);
-  bool has_vanished(const ObjectLife& life, const FieldInFrame& frame) const;
-  void observe(ObjectLife& life, const FieldInFrame& frame);
-  std::optional<int> resting_blocks(const ObjectLife& life, const BlockField& field) const;
-  void stay(ObjectLife& life, const FieldInFrame& frame);
-  void miss(ObjectLife& life, const FieldInFrame& frame);
+  bool has_vanished(const Track& track, const FieldInFrame& frame) const;
+  void observe(Track& track, const FieldInFrame& frame);
+  std::optional<int> resting_blocks(const Track& track, const BlockField& field) const;
+  void stay(Track& track, const FieldInFrame& frame);
+  void miss(Track& track, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
-  ObjectMotion measure(ObjectLife& life, const FieldInFrame& frame);
+  ObjectMotion measure(Track& track, const FieldInFrame& frame);
   void choose_turned(uint32_t felt);
-  void turn(ObjectLife& life, const ObjectMotion& found, const FieldInFrame& frame);
-  void position(ObjectLife& life, const FieldInFrame& frame) const;
-  double noise_around(const ObjectLife& life);
+  void turn(Track& track, const ObjectMotion& found, const FieldInFrame& frame);
+  void position(Track& track, const FieldInFrame& frame) const;
+  double noise_around(const Track& track);
 
   MovingBlocks moving_;
   RegionFinder finder_;
@@ -242,7 +242,7 @@ class ObjectTracker {
   std::vector<size_t> order_;               ///< regions, largest first
   std::vector<Eigen::Vector2f> around_px_;  ///< motion of blocks around an object
   Parallax parallax_;
-  std::vector<ObjectLife> lives_;
+  std::vector<Track> tracks_;
   std::vector<MovingObject> objects_;
   uint32_t felt_key_ = 0, turned_key_ = 0;  ///< objects whose rotation is measured; 0: none
   uint32_t next_key_ = 1;

@@ -105,7 +105,7 @@ class SteadyRate {
   static constexpr double kFades_s = 0.1;
 
   /// Takes the change that a frame shows, `interval_s` > 0 after the previous one.
-  void see(const Estimate& change, double interval_s) {
+  void update(const Estimate& change, double interval_s) {
     if (!std::isfinite(change.sigma)) return miss(interval_s);
     const double variance = std::pow(change.sigma / interval_s, 2);
     const double news_1_s = change.value / interval_s - followed_1_s_;

@@ -30,7 +30,7 @@ class MotionStats {
     const Frame& frame = report.frame;
     const std::lock_guard<std::mutex> lock(mutex_);
     ++frames_;
-    if (frame.picture == Likeness::kFirst) ++restarts_;
+    if (frame.picture == FrameComparison::kFirst) ++restarts_;
     features_ = static_cast<uint32_t>(frame.features);
     tracked_ = static_cast<uint32_t>(frame.motion.tracked);
     model_.reset();

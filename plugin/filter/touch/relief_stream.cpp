@@ -34,7 +34,8 @@ int step_of(int samples, int cells) {
 }  // namespace
 
 Eigen::Vector2d touched_displacement_px(const Frame& frame, const Eigen::Vector2d& position) {
-  if (frame.picture == Likeness::kFirst || is_again(frame.picture) || frame.interval_ns <= 0) {
+  if (frame.picture == FrameComparison::kFirst || is_again(frame.picture) ||
+      frame.interval_ns <= 0) {
     return Eigen::Vector2d::Zero();
   }
   const double passed_s = 1e-9 * static_cast<double>(frame.interval_ns);
