@@ -3,6 +3,7 @@
 #include "core/grip/pose_fit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/grip/matrices.h"
 
@@ -75,6 +76,54 @@ Twist weakest_direction(const NormalEquations& equations) {
 }
 
 }  // namespace
+
+PoseFitter::PoseFitter(const StringGeometry& geometry)
+    : count_(geometry.count), radius_m_(geometry.grip_radius_m()) {
+  // Unused strings get a length, so that nothing is divided by zero.
+  exit_m_.setOnes();
+  grip_m_.setZero();
+  for (int i = 0; i < count_; ++i) {
+    exit_m_.col(i) = geometry.exit_m[static_cast<size_t>(i)];
+    grip_m_.col(i) = geometry.grip_m[static_cast<size_t>(i)];
+  }
+}
+
+Pose PoseFitter::moved(const Pose& pose, const Twist& twist) const noexcept {
+  Pose result;
+  result.position_m = pose.position_m + twist.head<3>();
+  // Cayley's map: the rotation vector to second order, without trigonometry.
+  const Eigen::Vector3d half = twist.tail<3>() * (0.5 / radius_m_);
+  const Eigen::Quaterniond turn(1, half.x(), half.y(), half.z());
+  result.orientation = (turn * pose.orientation).normalized();
+  return result;
+}
+
+Twist PoseFitter::twist(const Pose& from, const Pose& to) const noexcept {
+  const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
+  Twist result;
+  result << to.position_m - from.position_m, turn.vec() * (2 * radius_m_ / turn.w());
+  return result;
+}
+
+void PoseFitter::linearise(const Pose& pose, const StringVector& length_m,
+                           const StringVector& weight, NormalEquations& equations) const noexcept {
+  constexpr double kNoLength = 1e-12;
+  const Eigen::Matrix<double, 3, kMaxStrings> arm =
+      pose.orientation.toRotationMatrix().lazyProduct(grip_m_);
+  const Eigen::Matrix<double, 3, kMaxStrings> string = (exit_m_ - arm).colwise() - pose.position_m;
+  const StringVector length = string.colwise().norm();
+  const StringVector scale = weight.cwiseQuotient(length.cwiseMax(kNoLength));
+  const StringVector r = weight.cwiseProduct(length - length_m);
+  // −J: its sign cancels in H, and in g = −Σ J r.
+  StructureMatrix minus_J;
+  for (int i = 0; i < kMaxStrings; ++i) {
+    const Eigen::Vector3d unit = scale[i] * string.col(i);
+    minus_J.col(i) << unit, arm.col(i).cross(unit) / radius_m_;
+  }
+  equations.H.noalias() = minus_J * minus_J.transpose();
+  equations.g.noalias() = minus_J * r;
+  equations.cost_m2 = r.squaredNorm();
+}
 
 PoseFit PoseFitter::gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
                                  int also) const noexcept {

@@ -2,8 +2,6 @@
 // Copyright 2026 the gst-spidar authors
 #pragma once
 
-#include <cmath>
-
 #include "core/grip/string_geometry.h"
 
 namespace spidar {
@@ -32,16 +30,7 @@ struct PoseFit {
 /// strings whose lengths are not used, −1 for none.
 class PoseFitter {
  public:
-  explicit PoseFitter(const StringGeometry& geometry)
-      : count_(geometry.count), radius_m_(geometry.grip_radius_m()) {
-    // Unused strings get a length, so that nothing is divided by zero.
-    exit_m_.setOnes();
-    grip_m_.setZero();
-    for (int i = 0; i < count_; ++i) {
-      exit_m_.col(i) = geometry.exit_m[static_cast<size_t>(i)];
-      grip_m_.col(i) = geometry.grip_m[static_cast<size_t>(i)];
-    }
-  }
+  explicit PoseFitter(const StringGeometry& geometry);
 
   /// Makes up to four Gauss–Newton steps; for a start within some millimetres.
   PoseFit gauss_newton(const StringVector& lengths_m, const Pose& start, int left_out,
@@ -60,46 +49,15 @@ class PoseFitter {
   /// fitting minimum beside `fit` in this direction; `converged` is false if there is none.
   PoseFit beside(const StringVector& lengths_m, const PoseFit& fit, int left_out) const noexcept;
 
-  Pose moved(const Pose& pose, const Twist& twist) const noexcept {
-    Pose result;
-    result.position_m = pose.position_m + twist.head<3>();
-    // Cayley's map: the rotation vector to second order, without trigonometry.
-    const Eigen::Vector3d half = twist.tail<3>() * (0.5 / radius_m_);
-    const Eigen::Quaterniond turn(1, half.x(), half.y(), half.z());
-    result.orientation = (turn * pose.orientation).normalized();
-    return result;
-  }
+  Pose moved(const Pose& pose, const Twist& twist) const noexcept;
 
   /// The twist t with moved(from, t) = to.
-  Twist twist(const Pose& from, const Pose& to) const noexcept {
-    const Eigen::Quaterniond turn = to.orientation * from.orientation.conjugate();
-    Twist result;
-    result << to.position_m - from.position_m, turn.vec() * (2 * radius_m_ / turn.w());
-    return result;
-  }
+  Twist twist(const Pose& from, const Pose& to) const noexcept;
 
  private:
   /// `weight` is 1 for strings that count and 0 for the others.
   void linearise(const Pose& pose, const StringVector& length_m, const StringVector& weight,
-                 NormalEquations& equations) const noexcept {
-    constexpr double kNoLength = 1e-12;
-    const Eigen::Matrix<double, 3, kMaxStrings> arm =
-        pose.orientation.toRotationMatrix().lazyProduct(grip_m_);
-    const Eigen::Matrix<double, 3, kMaxStrings> string =
-        (exit_m_ - arm).colwise() - pose.position_m;
-    const StringVector length = string.colwise().norm();
-    const StringVector scale = weight.cwiseQuotient(length.cwiseMax(kNoLength));
-    const StringVector r = weight.cwiseProduct(length - length_m);
-    // −J: its sign cancels in H, and in g = −Σ J r.
-    StructureMatrix minus_J;
-    for (int i = 0; i < kMaxStrings; ++i) {
-      const Eigen::Vector3d unit = scale[i] * string.col(i);
-      minus_J.col(i) << unit, arm.col(i).cross(unit) / radius_m_;
-    }
-    equations.H.noalias() = minus_J * minus_J.transpose();
-    equations.g.noalias() = minus_J * r;
-    equations.cost_m2 = r.squaredNorm();
-  }
+                 NormalEquations& equations) const noexcept;
 
   Eigen::Matrix<double, 3, kMaxStrings> exit_m_, grip_m_;  ///< by coordinates
   int count_;
