@@ -303,7 +303,7 @@ std::string PartFile::publish() {
 
 void replace_file(const fs::path& file, const std::string& text) {
   constexpr std::chrono::milliseconds kStep{1};
-  constexpr int kLongest_steps = 2000;  // another save takes some milliseconds
+  constexpr int kLongest_steps = 1000;  // another save takes some milliseconds
   PartFile::Replaces replaces{true, {}};
   replaces.is_read = true;
   auto part = PartFile::claim(file, replaces);

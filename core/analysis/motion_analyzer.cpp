@@ -200,7 +200,10 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
   }
   settings_ = settings;
   // What will be used next has not seen the last picture.
-  if (was_by_points != by_points()) now_->reset();
+  if (was_by_points != by_points()) {
+    now_->reset();
+    next_->area = {};
+  }
 }
 
 const Frame& MotionAnalyzer::analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns,

@@ -8,6 +8,7 @@ namespace spidar::bench {
 
 int camera(int argc, char** argv);
 int cost(int argc, char** argv);
+int ladder(int argc, char** argv);
 int lag(int argc, char** argv);
 int loop(int argc, char** argv);
 int pose(int argc, char** argv);
@@ -16,7 +17,9 @@ int regression(int argc, char** argv);
 int released(int argc, char** argv);
 int safety(int argc, char** argv);
 int skew(int argc, char** argv);
+int stability(int argc, char** argv);
 int tension(int argc, char** argv);
+int touch_strings(int argc, char** argv);
 int turns(int argc, char** argv);
 int workspace(int argc, char** argv);
 

@@ -22,6 +22,7 @@ using namespace spidar::bench;
 const Benchmark kBenchmarks[] = {
     {"camera", camera, "[TEXT]          how the camera moves where little shows it"},
     {"cost", cost, "                the element in a pipeline"},
+    {"ladder", ladder, "                orders of the camera's motion, as chosen and fixed"},
     {"lag", lag, "                the force behind a motion on the screen"},
     {"loop", loop, "[SECONDS]       how late the 1 kHz loop wakes, and how long a tick takes"},
     {"pose", pose, "                time and error of the pose solver"},
@@ -34,8 +35,10 @@ const Benchmark kBenchmarks[] = {
      "                        --prove: what no film exceeds"},
     {"safety", safety, "                the figures of docs/safety.md"},
     {"skew", skew, "[SECONDS]       time from a picture to its force"},
+    {"stability", stability, "                errors of fits, poses and pictures that are hard"},
     {"tension", tension,
      "[COUNT]         the tension solver, also on COUNT problems of each hard family"},
+    {"touch_strings", touch_strings, "[TICKS]         energy that contacts give out"},
     {"turns", turns, "                roll and growth of balls that turn and grow"},
     {"workspace", workspace, "                what the strings of each profile leave of 3 N"},
 };

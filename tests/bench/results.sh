@@ -31,7 +31,7 @@ run() { # NAME
 bench() { meson devenv -C "$build" tests/bench/spidar-bench "$@"; }
 
 meson compile -C "$build" spidar-bench plugin/gstspidar tests/core/test_core
-[ $# -gt 0 ] || set -- camera ${FILMS:+real_films changed_films same_films pareto} gyroscope skew lag loop cost tension pose safety hazards turns workspace error_bound paper
+[ $# -gt 0 ] || set -- ladder stability camera ${FILMS:+real_films changed_films same_films pareto} gyroscope skew lag loop cost tension pose safety hazards touch_strings turns workspace error_bound paper
 failed=
 for name in "$@"; do
     echo "$name -> $folder/$name.txt"

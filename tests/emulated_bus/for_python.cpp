@@ -60,4 +60,14 @@ BUS_API bool evdev_plays(int number) {
   return std::any_of(effects.begin(), effects.end(),
                      [](const EvdevPort::Effect& effect) { return effect.plays.load(); });
 }
+BUS_API void evdev_hang(int number, bool hangs) {
+  bus().evdev[static_cast<size_t>(number)].hangs = hangs;
+}
+BUS_API int evdev_hanging(int number) {
+  return bus().evdev[static_cast<size_t>(number)].hanging;
+}
+BUS_API uint64_t evdev_uploads(int number) {
+  return bus().evdev[static_cast<size_t>(number)].uploads;
+}
+
 }  // extern "C"

@@ -31,7 +31,7 @@ os.environ["SPIDAR_EMULATED_BUS"] = _file.name
 bus = ctypes.CDLL(None)
 for _name in ("bus_at_rest", "evdev_at_rest", "evdev_plays"):
     getattr(bus, _name).restype = ctypes.c_bool
-for _name in ("bus_updates", "bus_files_opened"):
+for _name in ("bus_updates", "bus_files_opened", "evdev_uploads"):
     getattr(bus, _name).restype = ctypes.c_uint64
 
 

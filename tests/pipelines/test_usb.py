@@ -303,6 +303,22 @@ class Joysticks(Pipelines):
         wait_for(lambda: not bus.evdev_at_rest(0))
         return pipeline
 
+    def test_no_frame_waits_for_a_driver_that_hangs(self):
+        """No limit of time: if the streaming thread waited for the device, no frame would pass until the driver returns,
+        which is after 30 frames have passed. Lateness is measured in the suite `kernel`, whose time does not depend on
+        the machine."""
+        pipeline = self.play()
+        bus.evdev_hang(0, True)
+        wait_for(lambda: bus.evdev_hanging(0) == 1)
+        uploads = bus.evdev_uploads(0)
+        self.wait_for_frames(pipeline, 30)
+        # Nor does the application wait when it pauses the film.
+        pipeline.set_state(Gst.State.PAUSED)
+        self.assertEqual(pipeline.get_state(Gst.CLOCK_TIME_NONE)[0], Gst.StateChangeReturn.SUCCESS)
+        self.assertEqual((bus.evdev_hanging(0), bus.evdev_uploads(0)), (1, uploads), "all that time, one upload")
+        bus.evdev_hang(0, False)
+        wait_for(lambda: bus.evdev_at_rest(0))
+
     def test_messages_say_that_it_is_opened_lost_and_back(self):
         pipeline = self.play()
         self.assertEqual(self.next_device(pipeline), ("opened", "ff", True))

@@ -36,8 +36,28 @@ struct TrackDriver : LoopDriver {
     for (int i = 0; i < ticks; ++i) record = watched_tick();
     return record;
   }
+  void schedule(int64_t from_ms, int64_t to_ms) {
+    for (int64_t ms = from_ms; ms < to_ms; ms += TrackBlock::kCapacity) {
+      ASSERT_TRUE(loop->schedule(block_of(ms)));
+    }
+  }
+
   TickWatch watch;
 };
+
+TEST(HapticLoopTrack, AFlushForgetsSamplesAlsoThoseOfABlockThatIsBeingRead) {
+  TrackDriver driver;
+  driver.schedule(0, 2000);
+  driver.play(0);
+  driver.watched_run(100);
+  driver.loop->cancel_scheduled();
+  EXPECT_EQ(driver.watched_tick().found, Found::kNothing);
+  driver.schedule(1000, 1400);
+  driver.play(1000 * kMs);
+  const TickRecord record = driver.watched_run(90);
+  EXPECT_EQ(record.found, Found::kExact);
+  EXPECT_EQ(record.wanted.force_N.x(), kTrackForceScale_N * fraction_at(1090));
+}
 
 TEST(HapticLoopTrack, AFlushMakesRoomAlsoWhileNothingPlays) {
   TrackDriver driver;

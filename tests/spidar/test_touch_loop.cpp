@@ -66,6 +66,64 @@ struct Hand {
   int64_t now_ns = 7'000'000'000'000;
 };
 
+std::string row_of(const TickRecord& record) {
+  std::string row;
+  append_row(record, row);
+  return row;
+}
+
+/// Three loops: one without a mailbox, one with an empty mailbox, and one whose mailbox was
+/// emptied. Random frames, poses, pauses, flushes and faults give the same results, to the last
+/// bit.
+TEST(TouchLoop, WithoutASurfaceNothingIsDifferent) {
+  LoopDriver plain;
+  LoopDriver empty;
+  LoopDriver released;
+  touch::Mailbox nothing(kWidth_m, kHeight_m, 3);
+  touch::Mailbox taken_back(kWidth_m, kHeight_m, 3);
+  empty.loop->connect_touch(&nothing);
+  released.loop->connect_touch(&taken_back);
+  publish_plane(taken_back, 0, 0.02);
+  taken_back.clear();
+  publish_nothing(taken_back, 0);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int64_t frames = 0;
+  Pose pose;
+  int felt = 0;
+  for (LoopDriver* driver : {&plain, &empty, &released}) {
+    driver->open();
+    driver->play(0);
+  }
+  for (int n = 0; n < 4000; ++n) {
+    const bool frame_due = n % 33 == 0;
+    const Wrench wrench{{2 * uniform(random), 2 * uniform(random), uniform(random)},
+                        {0, 0, 0.05 * uniform(random)}};
+    pose.position_m = 0.999 * pose.position_m +
+                      2e-4 * Eigen::Vector3d(uniform(random), uniform(random), uniform(random));
+    const auto what = random() % 1000;
+    if (frame_due) ++frames;
+    std::string rows[3];
+    int k = 0;
+    for (LoopDriver* driver : {&plain, &empty, &released}) {
+      if (frame_due) driver->loop->schedule({frames * 33 * kMs, 43 * kMs, wrench});
+      if (what == 0) driver->loop->cancel_scheduled();
+      if (what == 1) driver->pause();
+      if (what == 2) driver->play(n * kMs);
+      driver->log().answer = what == 3 ? LinkFault::kTimeout : LinkFault::kNone;
+      put_grip(*driver, pose);
+      const TickRecord record = driver->tick();
+      rows[k++] = row_of(record);
+      felt += record.commanded.force_N.norm() > 0.1;
+    }
+    ASSERT_EQ(rows[1], rows[0]) << n;
+    ASSERT_EQ(rows[2], rows[0]) << n;
+    ASSERT_EQ(empty.log().last_volts.volt, plain.log().last_volts.volt) << n;
+    ASSERT_EQ(released.log().last_volts.volt, plain.log().last_volts.volt) << n;
+  }
+  EXPECT_GT(felt, 2000) << "it is forces that are compared";
+}
+
 TEST(TouchLoop, APlaneIsStiffnessTimesDepthInTheHand) {
   for (const double stiffness_N_m : {300.0, 500.0, 800.0}) {
     Hand hand;
