@@ -14,15 +14,15 @@
 
 namespace spidar {
 
-/// A signed number of 64 bits is a time or a duration in ns. GStreamer's times have no sign: −1 is
+/// An int64_t is a time or a duration in ns. GStreamer's times are unsigned: −1 stands for
 /// GST_CLOCK_TIME_NONE.
 using Scalar = std::variant<bool, int32_t, uint32_t, uint64_t, int64_t, double, const char*>;
-/// Values of one row, each with the end of its name. They are separate fields; in JSON, an array.
+/// Values of one row, each with its suffix to the name: separate fields, but in JSON one array.
 using Parts = std::vector<std::pair<const char*, Scalar>>;
 /// A matrix is one field, an array.
 using FieldValue = std::variant<Scalar, Parts, Eigen::MatrixXd>;
 
-/// With the parts x, y, z.
+/// Returns the coordinates of `vector` as the parts x, y and z.
 template <int kSize>
 Parts axes(const Eigen::Matrix<double, kSize, 1>& vector) {
   static_assert(kSize == 2 || kSize == 3);
@@ -31,7 +31,7 @@ Parts axes(const Eigen::Matrix<double, kSize, 1>& vector) {
   return parts;
 }
 
-/// Names and sentences are literals.
+/// The description of a row. All three strings are literals.
 struct Field {
   const char* name;  ///< as in a GstStructure: "stream-time"
   const char* unit;  ///< "" for none
@@ -57,7 +57,7 @@ class FieldSink {
           const char* meaning) {
     if ((outputs & outputs_) != 0) take({name, unit, meaning}, value);
   }
-  /// Begins a group of rows, up to end(), which JSON shows.
+  /// Begins a group of rows that end() closes. Only JSON shows groups.
   virtual void begin(const char* /*group*/) {}
   virtual void end() {}
 
@@ -68,8 +68,8 @@ class FieldSink {
   const unsigned outputs_;
 };
 
-/// Appends names or values to a line, with commas between them. Numbers ignore the locale and are
-/// as short as they can be read back exactly; true is 1.
+/// Appends names or values to a line, with commas between them. Numbers ignore the locale and have
+/// only the digits needed to read them back exactly; true is 1.
 class CsvLine : public FieldSink {
  public:
   enum class Of { kNames, kValues };

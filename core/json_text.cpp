@@ -47,7 +47,7 @@ ReadJson parse_json(std::string_view text, std::string& why) {
   try {
     return ReadJson::parse(text.begin(), text.end());
   } catch (const ReadJson::parse_error& error) {
-    // The number of the byte, from 1; at the end of the text, one more than there are.
+    // Bytes count from 1; at the end of the text, `byte` is the number of bytes plus one.
     const size_t at = std::max<size_t>(error.byte, 1) - 1;
     why = at >= text.size() ? "it is no JSON: it ends too early"
                             : "it is no JSON: " + place(text, at) + " is wrong";

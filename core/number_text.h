@@ -32,7 +32,7 @@ class NumberText {
   size_t length_ = 0;
 };
 
-/// The number that the whole text states; nothing unless it is one finite number.
+/// Parses the whole text as one finite number; returns nothing if it is anything else.
 inline std::optional<double> number_of(std::string_view text) noexcept {
   double value = 0;
   const char* const text_end = text.data() + text.size();

@@ -12,8 +12,8 @@ namespace spidar {
 /// as much as a force of one newton.
 constexpr double kTorqueArm_m = 0.0225;
 
-/// The smallest force that a hand feels, the mean of wrist, elbow and shoulder: IEEE Trans. Haptics
-/// 2013, PubMed 24808327.
+/// The smallest force that a hand feels, averaged over wrist, elbow and shoulder: IEEE Trans.
+/// Haptics 2013, PubMed 24808327.
 constexpr double kFeltForce_N = 0.04;
 
 /// The magnitude of a wrench as one force, with the torque divided by `arm_m` > 0.

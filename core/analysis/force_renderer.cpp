@@ -7,8 +7,7 @@
 namespace spidar {
 namespace {
 
-/// The id of the object whose motion is felt; 0 if none, or not of a single object. An object at
-/// rest is felt as rest.
+/// The id of the felt object; 0 if no single object is felt. A visible object at rest also counts.
 uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) {
   const MovingObject* object = choice.object;
   if (choice.is_free() && kind == MotionKind::kObject) object = frame.dominant_object();
@@ -17,8 +16,8 @@ uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) 
   return is_lost ? 0 : object->id;
 }
 
-/// Identifies for WrenchFade what is felt: another rule is another thing, even for the same object,
-/// because its gain may differ.
+/// Returns the number by which WrenchFade recognizes what is felt. It differs between rules, even
+/// for the same object, because their gains may differ.
 uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   constexpr uint32_t kPicture = UINT32_MAX;
   uint64_t target = object;
@@ -31,7 +30,7 @@ uint64_t felt_thing(const Chosen& choice, uint32_t object) {
   return target;
 }
 
-/// The wrench of a rule, within the limit of the controller.
+/// Applies the gain of a rule. A gain above 1 raises the force to at most `most_N`.
 Wrench amplified(const Wrench& wrench, double gain, double most_N) {
   const double force_N = size_N(wrench);
   if (gain == 1 || force_N == 0) return wrench;
@@ -39,7 +38,7 @@ Wrench amplified(const Wrench& wrench, double gain, double most_N) {
   return {factor * wrench.force_N, factor * wrench.torque_Nm};
 }
 
-/// The same motion when it takes 1 / `factor` of the time.
+/// Returns `motion` with all rates multiplied by `factor`.
 ImageMotion faster(ImageMotion motion, double factor) {
   motion.velocity_px_s *= factor;
   motion.growth_1_s *= factor;

@@ -22,15 +22,15 @@
 
 namespace spidar {
 
-/// Settings of the analysis of frames, and of the rendering of what it finds.
+/// Settings of the analysis of frames and of the rendering of forces.
 struct AnalyzerSettings {
   TrackerSettings tracker;
   MotionKind motion = MotionKind::kObject;
   AreaSetting area;  ///< in px of the pictures
-  /// The position in the picture where kObjects is felt: (0, 0) is the top left corner, (1, 1) the
-  /// bottom right one; finite.
+  /// The pointer of MotionKind::kObjects, as a position in the picture: (0, 0) is the top left
+  /// corner, (1, 1) the bottom right one; finite.
   Eigen::Vector2d pointer{0.5, 0.5};
-  /// Rules that replace `motion` while one holds, except kMean, which knows no objects.
+  /// Rules that replace `motion` while one of them holds; ignored with kMean, which has no objects.
   std::shared_ptr<const FeelRules> feel;
   KeptObject kept;  ///< has priority over `feel`
   /// The boxes of this frame; null: none.
@@ -47,30 +47,30 @@ AnalyzerSettings paper_settings();
 /// Throws std::invalid_argument when a setting is out of range.
 void validate(const AnalyzerSettings& settings);
 
-/// When another object is felt than before, or none any more, the last wrench fades out over
-/// kFade_s while the new one fades in. An object that begins to move while nothing is felt is felt
-/// at once and in full.
+/// Cross-fades wrenches: when the felt object changes or is lost, the last wrench fades out over
+/// kFade_s while the new one fades in. If nothing was felt before, a new object is felt at once and
+/// in full.
 class WrenchFade {
  public:
-  /// Begins a frame. `object` identifies what is felt by a constant number; 0: nothing, or the
+  /// Begins a frame. `object` is a constant number for each thing that is felt; 0: nothing, or the
   /// whole picture. Returns whether the last wrench begins to fade out.
   bool turn_to(uint64_t object);
 
-  /// The wrench to render in this frame, `interval_s` > 0 after the previous one, if `wrench` is
-  /// that of the object.
+  /// Returns the wrench to render in this frame, `interval_s` > 0 after the previous one. `wrench`
+  /// is that of the object, without a fade.
   Wrench fade(const Wrench& wrench, double interval_s);
 
   /// Call this after a cut or a seek, and in a still picture: nothing fades.
   void reset() { *this = WrenchFade(); }
 
-  /// Two or three frames of a film; shorter than the 0.15 s or so that a hand needs to react.
+  /// Two or three frames of a film: shorter than the reaction time of a hand, about 0.15 s.
   static constexpr double kFade_s = 0.1;
 
  private:
   uint64_t object_ = 0;
-  double old_fraction_ = 0;  ///< of `old_`; 0: nothing fades
+  double old_fraction_ = 0;  ///< weight of `old_`; 0: no fade
   Wrench old_;
-  Wrench felt_;  ///< in the last frame
+  Wrench felt_;  ///< the result of the last fade()
 };
 
 inline bool WrenchFade::turn_to(uint64_t object) {
@@ -95,12 +95,12 @@ class ForceRenderer {
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
   explicit ForceRenderer(const AnalyzerSettings& settings);
 
-  /// See MotionAnalyzer::configure(), but without AnalyzerSettings::tracker.
+  /// Like MotionAnalyzer::configure(), but does not use AnalyzerSettings::tracker.
   void configure(const AnalyzerSettings& settings);
 
-  /// Fills in what is felt of `frame`, and its wrench. Takes the frames in the order of display,
-  /// except those that wait, with the `settings` of configure(), the position in the film, and the
-  /// turn before display.
+  /// Sets the felt motion and the wrench of `frame`. Call this in display order for each frame that
+  /// does not wait. `settings` are those of configure(), `stream_ns` is the position in the film,
+  /// and `turn` is how the frame is turned before display.
   void render(Frame& frame, const AnalyzerSettings& settings, int64_t stream_ns,
               const Orientation& turn);
   void reset();

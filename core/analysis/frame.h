@@ -13,19 +13,19 @@
 
 namespace spidar {
 
-/// The result for one frame, which the steps of the analysis fill in one after the other. All other
-/// code reads this.
+/// The result for one frame. The stages of the analysis fill it in one after the other; all other
+/// code only reads it.
 struct Frame : MeasuredFrame {
   Chosen choice;  ///< without `object`
-  /// The height of the film as shown, in the unit of its lengths, to which speeds refer.
+  /// The height of the film as displayed, in px of the frame: the reference for speeds.
   int shown_height_px = 0;
   uint32_t felt_object = 0;  ///< id of the one object that is felt; 0: none, or several
-  ImageMotion motion;        ///< the felt one, unfiltered, in px/s of the frame
-  /// Wanted by the controller, before any safety limit; turned and weakened as shown.
+  ImageMotion motion;        ///< the felt motion, unfiltered, in px/s of the frame
+  /// The wanted wrench, before any safety limit. In reports, it is turned and weakened as rendered.
   Wrench wrench;
 
   bool has_motion_before() const { return picture != FrameComparison::kFirst; }
-  /// Whether the frame repeats the previous picture, whose wrench continues; at rest none does.
+  /// Whether the frame repeats the previous picture and its wrench continues. At rest, none does.
   bool is_continuation() const {
     return picture == FrameComparison::kWaiting && !wrench.stacked().isZero(0);
   }

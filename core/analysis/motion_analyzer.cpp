@@ -11,25 +11,25 @@
 namespace spidar {
 namespace {
 
-/// After so many pairs of pictures, a part of the picture shows whatever it may show: an object
-/// that is seen with one block only has been born (Track::kBornAfterBlocks).
+/// After this many pairs of pictures, the measurement of a part of the picture is complete: even an
+/// object of a single block has been born (Track::kBornAfterBlocks).
 constexpr int kSettles_pairs = Track::kBornAfterBlocks;
 
-/// By less, on an average, the points of a picture at rest seem to move: blocks are right to a
-/// tenth of a pixel of the field.
+/// The mean apparent motion of the points of a picture at rest is below this: blocks are accurate
+/// to a tenth of a pixel of the field.
 constexpr double kFlickers_px = 0.1;
-/// By less, on an average, what is in a part of the reduced picture has moved while its camera
-/// rests: a pixel, as far as sides may seem to.
+/// While the camera of a part of the reduced picture rests, the mean motion in it is below this: a
+/// pixel, the distance by which its sides may seem to move.
 constexpr double kRests_px = 1;
 
-/// Whether no side differs by more than a pixel of the reduced picture, of which it is known.
+/// Whether all sides agree to within a pixel of the reduced picture, in which they were found.
 bool is_near(const PicturePart& a, const PicturePart& b, int factor) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y),
                    std::abs(a.x + a.width - b.x - b.width),
                    std::abs(a.y + a.height - b.y - b.height)}) <= factor;
 }
 
-/// How far points move on an average, px.
+/// The mean displacement of the points, px.
 Eigen::Vector2d mean_step_of(const std::vector<FollowedPoint>& points) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const FollowedPoint& point : points) {
@@ -45,7 +45,7 @@ void MotionAnalyzer::take(const Cadence::Step& step) {
   frame_.shown_for_ns = step.shown_for_ns;
 }
 
-/// Measures all of a picture of another size, or the part that the setting names.
+/// Begins anew with the area of the settings when that area or the size of the pictures changes.
 void MotionAnalyzer::enter(const ImageView& picture) {
   FilmPlace& place = frame_.place;
   const bool is_other_size =
@@ -60,14 +60,14 @@ void MotionAnalyzer::enter(const ImageView& picture) {
   place = {now_->area, picture.width, picture.height};
 }
 
-/// Reads the film in a picture, in which compare() then finds what moves.
+/// Reads the film area of a picture, before compare().
 FrameComparison MotionAnalyzer::read(Measured& measured, const ImageView& film,
                                      bool may_wait) const {
   return by_points() ? measured.tracker.track(film, may_wait).picture
                      : measured.reduced.read(film, may_wait);
 }
 
-/// Returns false when there is nothing to compare the film with.
+/// Measures the motion in the film area. Returns false if there is no picture to compare with.
 bool MotionAnalyzer::compare(Measured& measured, const ImageView& film, MeasuredFrame& frame,
                              uint32_t felt) const {
   bool is_compared = false;
@@ -86,7 +86,7 @@ bool MotionAnalyzer::compare(Measured& measured, const ImageView& film, Measured
   return is_compared;
 }
 
-/// Shows the reduced picture to the finder. Where the film fills it, the analysis has made it.
+/// Passes the reduced picture to the area finder; it exists already if the film fills the picture.
 void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& film,
                                    int64_t running_ns) {
   const bool scrolls = page_scroll_.update(film);
@@ -100,7 +100,7 @@ void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& fi
   frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
 
-/// Where the film may be, as far as the finder tells.
+/// The part of the picture in which the area finder sees or suspects the film.
 PicturePart MotionAnalyzer::film_in(const ImageView& picture) const {
   const std::optional<PicturePart> part = area_finder_.film();
   const int width = picture.width, height = picture.height;
@@ -113,8 +113,8 @@ PicturePart MotionAnalyzer::film_in(const ImageView& picture) const {
           (bottom == height / factor ? height : factor * bottom) - y};
 }
 
-/// Measures where the film is found or suspected, beside what is felt and then in its place.
-/// Returns whether anything was found that may be felt.
+/// Measures the part where the film is found or suspected, first in parallel with the current part,
+/// then instead of it. Returns whether the frame has motion that may be felt.
 bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int64_t running_ns) {
   const int factor = halving_factor(picture.width, picture.height);
   const PicturePart film = film_in(picture);
@@ -135,8 +135,8 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
     const bool moves = next_frame_.dominant != 0 || step_px.norm() > kFlickers_px;
     area_finder_.tell(moves, step_px.x(), step_px.y(), running_ns);
   }
-  // A film whose camera moves is felt as an object, wrongly; most of those in it have been born
-  // after two pairs.
+  // Until the switch, a film whose camera moves is wrongly felt as an object. After two pairs, most
+  // of the objects in the film have been born.
   const bool shows_as_much = is_next_compared
                                  ? next_frame_.dominant != 0 || frame_.dominant == 0 ||
                                        (step_px.norm() > kRests_px && next_->pairs > 1) ||
@@ -152,7 +152,7 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
   return is_next_compared && frame_.place.is_known;
 }
 
-/// Reads the picture and finds what moves. Returns false, and finds nothing, while it waits.
+/// Reads the picture and measures its motion. Returns false without measuring while it waits.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   enter(picture);
   const ImageView film = part_of(picture, now_->area);
@@ -173,7 +173,7 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   }
   frame_.clear_motion();
   take(step);
-  if (!frame_.place.is_known) {  // what was there may have moved
+  if (!frame_.place.is_known) {  // the film may have moved
     now_->motion.reset();
     now_->pairs = 0;
   }
@@ -190,7 +190,7 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
 }
 
 void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
-  renderer_.configure(settings);  // validates all of them
+  renderer_.configure(settings);  // validates all settings
   now_->tracker.configure(settings.tracker);
   next_->tracker.configure(settings.tracker);
   const bool was_by_points = by_points();
@@ -199,7 +199,7 @@ void MotionAnalyzer::configure(const AnalyzerSettings& settings) {
     frame_.place = {};
   }
   settings_ = settings;
-  // What will be used next has not seen the last picture.
+  // The method used from now on has not seen the last picture.
   if (was_by_points != by_points()) {
     now_->reset();
     next_->area = {};

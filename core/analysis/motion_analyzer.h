@@ -28,8 +28,8 @@ namespace spidar {
 /// pictures before; after that it counts as rest.
 ///
 /// Where AreaFinder finds or guesses that the film is in another part of the picture than the one
-/// that is measured, both parts are measured. The other part replaces the first one as soon as it
-/// is sure and shows as much, so that there is no gap.
+/// that is measured, both parts are measured. The other part replaces the first one once it is
+/// certain and its measurement is as complete, so that there is no gap.
 class MotionAnalyzer {
  public:
   /// Throws std::invalid_argument when a setting is out of range, as configure() does.
@@ -39,17 +39,17 @@ class MotionAnalyzer {
         next_(std::make_unique<Measured>(settings.tracker, next_id_)),
         renderer_(settings) {}
 
-  /// Applies from the next frame on. The points stay, and so does the scale of the controller
+  /// Changes the settings from the next frame on. Keeps the points, and the scale of the controller
   /// unless its law changes. Throws std::invalid_argument when a setting is out of range, and then
   /// changes nothing.
   void configure(const AnalyzerSettings& settings);
 
-  /// Frames must come in the order of display. A running time that does not rise causes a restart,
-  /// because the interval would not be positive. A cut in the picture or a new size restarts points
-  /// and filter only: the largest speed of eq. 13 and the scale of the adaptive controller belong
-  /// to the whole video. Throws std::invalid_argument for a frame that require_usable() refuses, or
-  /// whose area it does. The position in the film, and how the frame is turned before it is shown,
-  /// are for AnalyzerSettings::feel alone. The result is valid until the next call.
+  /// Frames must come in the order of display. A running time that does not increase causes a
+  /// restart, because the interval would not be positive. A cut in the picture or a new size
+  /// restarts points and filter only: the largest speed of eq. 13 and the scale of the adaptive
+  /// controller belong to the whole video. Throws std::invalid_argument if require_usable() rejects
+  /// the frame or its area. `stream_ns`, the position in the film, is for AnalyzerSettings::feel;
+  /// `turn` is the turn before display. The result is valid until the next call.
   const Frame& analyze(const ImageView& image, int64_t running_ns, int64_t stream_ns = 0,
                        const Orientation& turn = {});
 
@@ -63,7 +63,7 @@ class MotionAnalyzer {
   void reset();
 
  private:
-  /// A part of the pictures in which motion is found.
+  /// A measured part of the pictures, with the state of its analysis.
   struct Measured {
     Measured(const TrackerSettings& settings, const std::shared_ptr<uint32_t>& next_id)
         : tracker(settings), motion(next_id) {}
@@ -82,7 +82,7 @@ class MotionAnalyzer {
     ReducedFrame reduced;
     OpenCvTracker tracker;   ///< for MotionKind::kMean
     MotionEstimator motion;  ///< for all other kinds
-    int pairs = 0;           ///< of pictures that have been compared since reset()
+    int pairs = 0;           ///< pairs of pictures compared since reset()
   };
 
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
@@ -100,11 +100,11 @@ class MotionAnalyzer {
   AnalyzerSettings settings_;
   AreaFinder area_finder_;
   PageScroll page_scroll_;
-  PaddedImage whole_;  ///< the reduced picture, where the film is a part of it
-  /// Of the objects in both, so that an id means one object when the area changes, too.
+  PaddedImage whole_;  ///< the reduced picture, if the film fills only a part of it
+  /// Shared by `now_` and `next_`, so that object ids stay unique when the area changes.
   std::shared_ptr<uint32_t> next_id_ = std::make_shared<uint32_t>(1);
   std::unique_ptr<Measured> now_;
-  std::unique_ptr<Measured> next_;  ///< beside it; without an area: nothing is
+  std::unique_ptr<Measured> next_;  ///< measured in parallel; unused while its area is empty
   MeasuredFrame next_frame_;
   Cadence cadence_;
   ForceRenderer renderer_;

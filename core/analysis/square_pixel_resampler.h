@@ -12,13 +12,13 @@ namespace spidar {
 
 /// Resamples pictures whose pixels are not square, as DVD, HDV and anamorphic HD store them. Motion
 /// is measured in square pixels, because only there a rotation is a rotation, and directions and
-/// speeds are those that a viewer sees. The pictures are resampled along their lines, so that the
-/// unit of all lengths remains the distance of two lines.
+/// speeds are those that a viewer sees. The pictures are resampled horizontally, so that the unit
+/// of length remains the line spacing.
 class SquarePixelResampler {
  public:
-  /// Returns the picture as if its pixels were square; `picture` itself where they are.
-  /// `pixel_aspect` > 0 is width over height of a pixel. Valid until the next call. Allocates only
-  /// when the size changes.
+  /// Returns the picture resampled to square pixels, or `picture` itself if they are square.
+  /// `pixel_aspect` > 0 is width over height of a pixel. The result is valid until the next call.
+  /// Allocates only when the size changes.
   ImageView view(const ImageView& picture, double pixel_aspect);
   static int width_of(int stored_width, double pixel_aspect);
 

@@ -11,7 +11,7 @@ namespace spidar {
 namespace {
 
 constexpr double kMaxRuleGain = 10;
-/// A day, more than any film; its ns fit into a double exactly.
+/// A day, longer than any film. A double represents its nanoseconds exactly.
 constexpr double kLongest_s = 86400;
 constexpr size_t kMaxQuoted = 40;
 
@@ -30,7 +30,7 @@ constexpr const char* kAllWords =
   throw FeelRulesError("line " + std::to_string(line) + ": " + what);
 }
 
-/// Text from a person, as a message can show it.
+/// Quotes `text` for a message: shortened, with ? for each byte that is not printable ASCII.
 std::string quote(std::string_view text) {
   std::string shown(text.substr(0, kMaxQuoted));
   for (char& c : shown) {
@@ -43,7 +43,7 @@ bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// Parses seconds, minutes and hours, the last with colons before them.
+/// Parses S, M:S or H:M:S; only the seconds may have a fraction.
 std::optional<int64_t> time_ns(std::string_view text) {
   double seconds = 0;
   for (int parts = 0;; ++parts) {
@@ -103,7 +103,7 @@ class RuleParser {
     skip_space();
     return true;
   }
-  /// Takes everything up to the next word that begins with a letter, without spaces.
+  /// Takes all words up to the next one that begins with a letter, and joins them without spaces.
   std::string take_numbers() {
     std::string numbers;
     while (!text_.empty() && !is_letter(text_.front())) {
@@ -238,7 +238,7 @@ FeelRules::FeelRules(std::string_view text) {
   for (int line = 1; !text.empty();) {
     const size_t end = text.find_first_of("\n;");
     std::string_view one = text.substr(0, end);
-    // A semicolon in a comment ends nothing.
+    // A semicolon in a comment does not end a rule.
     if (one.find('#') != std::string_view::npos) one = text.substr(0, text.find('\n'));
     const int this_line = line;
     line += counts_rules || text.substr(one.size(), 1) == "\n";

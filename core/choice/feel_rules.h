@@ -17,8 +17,8 @@
 
 namespace spidar {
 
-/// One rule, written by a person, of what is felt of a film and when. Positions go from (0, 0), the
-/// top left corner of the shown picture, to (1, 1).
+/// A rule, written by a user, that says what is felt of a film, and when. Positions go from (0, 0),
+/// the top left corner of the shown picture, to (1, 1).
 struct FeelRule {
   enum class Kind { kObjectAt, kLargest, kFurthest, kBox, kRegion, kCamera, kNothing };
 
@@ -61,11 +61,11 @@ class FeelRules {
   explicit FeelRules(std::string_view text);
 
   const std::vector<FeelRule>& rules() const { return rules_; }
-  /// The rule of this moment; null when there is none.
+  /// Returns the rule that holds at `stream_ns`, or null.
   const FeelRule* at(int64_t stream_ns) const;
-  /// Whether a rule means boxes that come with the frames.
+  /// Whether any rule refers to boxes that come with the frames.
   bool has_boxes() const;
-  /// The rules in one line, in one form for all ways to type them.
+  /// Returns the rules on one line, in canonical form.
   std::string text() const;
 
  private:
@@ -78,16 +78,15 @@ std::string time_text(int64_t ns);
 /// A position as rules write it: "0.31,0.62".
 std::string position_text(const Eigen::Vector2d& position);
 
-/// A change of the rules: one object is felt from one time of the film to another, or no rule
-/// holds.
+/// An edit of the rules: between two times of the film, one object is felt, or no rule holds.
 struct FeelEdit {
   int64_t from_ns = 0, to_ns = 0;
   /// Where the object is at `from_ns`, as in FeelRule; none: no rule holds.
   std::optional<Eigen::Vector2d> position;
 };
 
-/// Applies `edit` to `rules`, which are in order of time, as is the result. Rules make room for the
-/// edit; of a rule about the object at a position, the part after the edit is dropped, too, because
+/// Applies `edit` to `rules`, which are sorted by time, and returns the sorted result. Overlapping
+/// rules are cut to make room. Of a kObjectAt rule, the part after the edit is dropped too, because
 /// the object may then be elsewhere. An edit that does not end after it begins changes nothing.
 inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
   if (edit.to_ns <= edit.from_ns) return rules;

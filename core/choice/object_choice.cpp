@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// The velocities before and after a loss differ by less than this fraction of the faster one.
+/// After a loss, the same object has its former velocity, to this fraction of the larger speed.
 constexpr double kSameVelocity = 0.5;
 
 /// How well an object meets the rule. An object whose score is higher by 1 replaces another.
@@ -104,9 +104,8 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// Of the possible objects, the one whose box is nearest to the position, and the smallest of
-/// several; null when none is within reach. While searching, objects count where they were at
-/// begin().
+/// Returns the candidate whose box is nearest to the position, and the smallest of several; null if
+/// none is within reach. In kLooking, boxes are moved back in time to where they were at begin().
 const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
                                                 double reach_px) const {
   const MovingObject* best = nullptr;
@@ -242,7 +241,7 @@ void ObjectChoice::by_rule(const FeelRule& rule, const ChoiceInput& frame, Chose
   }
 }
 
-/// Returns false when no click counts, or not yet.
+/// Returns false if there is no click, or while its object is still being searched for.
 bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
   if (kept_.click == 0) return false;
   if (followed_click_ != kept_.click) {

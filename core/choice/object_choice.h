@@ -34,26 +34,26 @@ struct KeptObject {
 };
 
 struct Chosen {
-  /// Result of a request.
+  /// Whether the object of a rule or a click could be found.
   enum class State {
     kGood,
     kNotThere,   ///< no object was at the position; the first that begins to move there is felt
     kNotSeen,    ///< playback began after the moment at which the object is at the position
     kLost,       ///< the object was followed and is lost
     kNoBox,      ///< no frame of the rule had a box of that name
-    kBoxAtRest,  ///< boxes came, but nothing moves in them
+    kBoxAtRest,  ///< there were boxes, but nothing moves in them
   };
 
   std::optional<FeelRule> rule;  ///< the rule that holds now; none: none does
-  bool is_kept = false;          ///< a click counts, and no rule
+  bool is_kept = false;          ///< a click decides, not a rule
   State state = State::kGood;
-  const MovingObject* object = nullptr;  ///< the felt one; null if not a single one
+  const MovingObject* object = nullptr;  ///< the felt object; null if there is no single one
 
-  /// Whether neither a rule nor a click counts: the setting `motion` decides what is felt.
+  /// Whether neither a rule nor a click decides: the setting `motion` decides what is felt.
   bool is_free() const { return !rule && !is_kept; }
 };
 
-/// What a choice needs of a frame. Positions of rules and clicks are those in the shown picture.
+/// The part of a frame that a choice needs. Rules and clicks have positions in the shown picture.
 struct ChoiceInput {
   const std::vector<MovingObject>& objects;
   const Background* background;  ///< null when unknown
@@ -61,7 +61,7 @@ struct ChoiceInput {
   /// The height of the shown film, px.
   int height() const { return turn.is_sideways() ? place.area.width : place.area.height; }
   double interval_s;  ///< since the previous frame; 0 when there is none
-  bool is_cut;        ///< nothing in it was in the previous frame
+  bool is_cut;        ///< the frame shows nothing of the previous one
   int64_t stream_ns;  ///< position in the film
   Orientation turn;   ///< of the frame before it is shown
   const std::vector<PictureBox>* boxes = nullptr;  ///< of the frame; null: none
@@ -75,12 +75,12 @@ struct ChoiceInput {
   }
 };
 
-/// Finds the object in a box: a box says which object is meant, the object how it moves. A detector
+/// Finds the object in a box: the box tells which object, and the object how it moves. A detector
 /// misses objects in some frames, so the object is kept for a moment without a box. The largest of
 /// several objects in boxes is taken; it stays for as long as there is a box around it.
 class BoxedObject {
  public:
-  /// Searches boxes of this name, or any box if it is empty. `name` must stay valid until begin().
+  /// Uses the boxes of this name; empty: any box. `name` must stay valid until the next begin().
   void begin(const char* name);
 
   /// Takes the next frame. Returns the object as it is in `frame`; null when none is known.
@@ -95,7 +95,7 @@ class BoxedObject {
   /// How long an object is kept without a box: a detector that examines every tenth frame of 25 a
   /// second, as on slow machines, may miss it once.
   static constexpr double kHold_s = 0.8;
-  /// How long a new rule may get no box before that is reported.
+  /// How long a new rule may lack a box before this is reported.
   static constexpr double kPatience_s = 1;
   /// A box is around an object when at least this fraction of the smaller of the two lies in the
   /// other: a face is a part of a person who moves, and a moving leg a part of the person in the
@@ -120,20 +120,20 @@ class BoxedObject {
 class FollowedObject {
  public:
   enum class State {
-    kLooking,   ///< searches the object at the position
-    kWaiting,   ///< nothing was there: waits for the first motion there
+    kLooking,   ///< searches for the object at the position
+    kWaiting,   ///< no object is there: waits for the first motion there
     kFollowed,  ///< visible, or hidden for a moment
     kResting,   ///< where it was last seen
     kLost,      ///< its position is unknown
   };
 
-  /// Searches the object that was at `position_px`, from the middle of the frame, `since_s` before
-  /// the frame of the next update().
+  /// Starts the search for the object that was at `position_px`, relative to the middle of the
+  /// frame, `since_s` before the frame of the next update().
   void begin(const Eigen::Vector2d& position_px, double since_s);
 
   /// Takes the next frame. Returns the object as it is in `objects`; null when it is not among
-  /// them. `interval_s`, the time since the previous frame, and `background` are those of the
-  /// motion.
+  /// them. `interval_s` is the time since the previous frame, and `background` the motion of the
+  /// background in it.
   const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
                              double interval_s, const Background* background);
 
@@ -144,9 +144,9 @@ class FollowedObject {
 
   State state() const { return state_; }
 
-  /// How long the object is searched: it is known only from the second frame of its motion on.
+  /// How long the search lasts: an object is known only from the second frame of its motion on.
   static constexpr double kLook_s = 0.5;
-  /// An object that is not seen for longer is lost. ObjectTracker knows a hidden one for 0.5 s.
+  /// An object that is unseen for longer is lost. ObjectTracker keeps a hidden one for 0.5 s.
   static constexpr double kLost_s = 1;
   /// How far a position may be from an object's box, as a fraction of the frame's height.
   static constexpr double kReach = 0.05;
@@ -160,7 +160,7 @@ class FollowedObject {
   State state_ = State::kLost;
   bool is_first_ = true;  ///< the next update() is the first
   uint32_t id_ = 0;
-  Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< where it is, or would be
+  Eigen::Vector2d position_px_ = Eigen::Vector2d::Zero();    ///< actual or predicted
   Eigen::Vector2d velocity_px_s_ = Eigen::Vector2d::Zero();  ///< relative to the background
   double since_s_ = 0;                                       ///< since begin()
   double missing_s_ = 0;
@@ -174,7 +174,7 @@ class FollowedObject {
 /// frames in the order of display. Allocates nothing.
 class ObjectChoice {
  public:
-  /// If the rule of the last frame is among the new ones, too, it keeps its object.
+  /// If the rule of the last frame is also one of the new rules, it keeps its object.
   void set_rules(std::shared_ptr<const FeelRules> rules);
   void set_kept(const KeptObject& kept);
 

@@ -16,8 +16,8 @@
 
 namespace spidar {
 
-/// How many times larger the sides of the picture are than those of the coarse picture, in which
-/// BlockField searches for jumps.
+/// The ratio of the sides of the picture to those of the coarse picture, in which BlockField
+/// searches for large displacements.
 constexpr int kCoarser = 4;
 
 /// How much smaller the picture of a BlockField is than the base of the pyramid.
@@ -27,7 +27,7 @@ enum class FieldScale { kSame, kTwoThirds, kHalf };
 /// without making a side shorter than kMinSide_px.
 FieldScale field_scale(int base_width, int base_height);
 
-/// Pixels of the base to one pixel of the picture: 1, 1.5 or 2.
+/// The side of a pixel of the picture, in pixels of the base: 1, 1.5 or 2.
 double pixels_to_one(FieldScale scale);
 
 /// Writes the reduced `base` to `picture`. With kTwoThirds each pixel is the rounded mean of the
@@ -43,10 +43,10 @@ void reduce_to_two_thirds(const PaddedImage& image, PaddedImage& reduced);
 void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
                       PaddedImage& before);
 
-/// The most pictures that are kept before the last one.
+/// The maximum number of pictures that are kept before the last one.
 constexpr int kMaxBack = 4;
 
-/// Pictures with sides a quarter as long, and the origin of each of their blocks.
+/// The pictures at a quarter of the resolution, and the origin of each of their blocks.
 struct CoarseField {
   PaddedImage before;
   PaddedImage now;
@@ -54,8 +54,8 @@ struct CoarseField {
   std::vector<BlockMatch> matches;
 };
 
-/// How each part of the picture moves: motion of blocks between two pictures of about 427 × 240 px.
-/// BlockSearch finds it in whole pixels, then refined_block().
+/// Measures the motion of the blocks between two pictures of about 427 × 240 px: BlockSearch finds
+/// it in whole pixels, and refined_block() refines it.
 class BlockField {
  public:
   enum class Result {
@@ -80,14 +80,14 @@ class BlockField {
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
-  /// Noise of the two pictures: the residual that a third of the blocks stay below, grey². The
-  /// motion of these blocks explains them best.
+  /// Noise of the two pictures, grey²: the residual below which a third of the blocks lie, those
+  /// that their motion explains best.
   float noise_grey2() const { return noise_grey2_; }
-  /// Pixels of the base to one pixel of the picture.
+  /// The side of a pixel of the picture, in pixels of the base.
   double scale() const { return pixels_to_one(scale_); }
 
   enum class Match : uint8_t {
-    kPlain,  ///< its pixels differ from their mean by less than a doubtful match
+    kPlain,  ///< its pixels differ from their mean less than a doubtful match would
     kFound,
     kLost,  ///< its best match shows something else
   };
@@ -106,7 +106,7 @@ class BlockField {
     return lost > found;
   }
 
-  /// The block of the previous picture, the nearest of the grid, from which block `index` has come.
+  /// The grid block of the previous picture that is nearest to the origin of block `index`.
   size_t origin_of(size_t index) const;
 
   /// Σ |now − before| of a block if it had moved by `moved_px`: the smaller of the values at the
@@ -117,8 +117,8 @@ class BlockField {
   /// blocks stand still because the last picture is repeated.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
   /// How much less the cells of a block differ from the picture `back` pictures ago if the block
-  /// has come from `from_px` away than if it has stayed in place; positive where it has moved.
-  /// Nothing if it would have come from outside the picture.
+  /// has come from `from_px` away than if it has stayed in place; positive where it has moved. No
+  /// result if it would have come from outside the picture.
   std::optional<int> cell_difference_gain(size_t block, int back,
                                           const Eigen::Vector2i& from_px) const;
 

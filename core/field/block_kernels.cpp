@@ -24,8 +24,8 @@ v_int16x8 load(const uint8_t* pixels) {
 
 /// Twice the derivatives of eight pixels of one picture, `step` bytes between neighbours: Δ₁ + (2
 /// Δ₁ − Δ₂) / 4, see BlockSums. Δ₁ alone understates the slope of fine detail, and a Gauss–Newton
-/// step from it is too long: at a period of five pixels by a third. The sum is right to 5 % down to
-/// a period of four pixels.
+/// step from it is too long: at a period of five pixels by a third. The sum is accurate to 5 % down
+/// to a period of four pixels.
 v_int16x8 slope(const uint8_t* pixels, ptrdiff_t step) {
   const v_int16x8 near = load(pixels + step) - load(pixels - step);
   const v_int16x8 far = load(pixels + 2 * step) - load(pixels - 2 * step);

@@ -12,14 +12,14 @@
 namespace spidar {
 namespace {
 
-/// How much a match must improve for each pixel that it deviates from the median of its neighbours:
-/// an eighth of a grey level for each pixel of the block, for up to half a block.
+/// The cost of each pixel by which a match deviates from the median of its neighbours: an eighth of
+/// a grey level per pixel of the block. Beyond half a block, the cost stays the same.
 constexpr int kLambda = kBlockArea_px / 8;
 constexpr int kMaxDeviation_px = kBlock_px / 2;
-/// Where no candidate fits, the search is widened: by a block, in halves down to a quarter of it.
+/// If no candidate fits, the search is widened: in steps of a block, halved down to a quarter.
 constexpr int kFarthest_px = kBlock_px;
 constexpr int kNearest_px = kBlock_px / 4;
-/// A walk goes as far as a deviation costs more and more.
+/// A walk goes as far as the cost of a deviation rises.
 constexpr int kMostSteps = kMaxDeviation_px;
 
 using Eigen::Vector2i;
@@ -129,7 +129,7 @@ class Walk {
   std::array<Vector2i, 9> candidates_;
   int count_ = 0;
   Vector2i best_{0, 0};
-  std::optional<Vector2i> lowest_;  ///< around which no step is better
+  std::optional<Vector2i> lowest_;  ///< the position from which no step is better
   int cost_ = std::numeric_limits<int>::max();
   int difference_ = 0;
 };
@@ -206,7 +206,7 @@ void AreaSums::read(const PaddedImage& picture) {
     for (size_t x = 0; x < width_; ++x) column_[x] = static_cast<uint16_t>(column_[x] + below[x]);
     uint16_t* const sums = sums_.data() + static_cast<size_t>(y - first) * width_;
     std::copy(column_.begin(), column_.end(), sums);
-    // Sums two columns, then four, eight and sixteen; no search needs those that do not fit in.
+    // Sums two columns, then four, eight and sixteen; no search reads the incomplete last sums.
     for (size_t n = 1; n < kBlock_px; n *= 2) {
       for (size_t x = 0; x + n < width_; ++x) {
         sums[x] = static_cast<uint16_t>(sums[x] + sums[x + n]);
@@ -230,7 +230,7 @@ MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
 
 MotionBlock refined_block(const BlockSums& s, const PaddedImage& now, const Vector2i& corner_px,
                           const BlockMatch& match, float regularization) {
-  // Derivatives are 1/4 of the sums' units. An offset common to all pixels is not motion.
+  // The sums have four times the derivatives. An offset common to all pixels is not motion.
   const float of_each = 1 / static_cast<float>(std::max(s.pixels, 1));
   const auto mean = [&](int32_t sum) { return static_cast<float>(sum) * of_each; };
   const Vector2f g(mean(s.x), mean(s.y));

@@ -110,7 +110,7 @@ struct BlockMatch {
   int difference = 0;  ///< Σ |now − before| of the block
 };
 
-/// Searches as video encoders do: starts with the motions of the neighbouring blocks and of the
+/// Searches like a video encoder: starts with the motions of the neighbouring blocks and of the
 /// previous frame, descends from the best of these, and widens the search only if none fits. A
 /// motion that deviates from that of the neighbours must fit better in proportion; textureless
 /// blocks therefore move with their neighbours.
@@ -141,8 +141,8 @@ Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
   return S.trace() > 0 ? smaller / (S.trace() - smaller) : 0;
 }
 
-/// The largest error of a block's motion in whole pixels, px of the picture in which motion is
-/// measured: the motion is right to half a pixel, or wrong. A block further off shows something
+/// The largest correction of a block's motion in whole pixels, px of the picture in which motion is
+/// measured: such a motion is right to half a pixel, or wrong. A block further off shows something
 /// else.
 constexpr float kMaxOff_px = 1;
 
@@ -187,7 +187,7 @@ inline BlockPixels pixels_at(const PaddedImage& picture, const Eigen::Vector2i& 
 MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);
-/// The same from the result of compare_blocks() there.
+/// The same, with the `sums` that compare_blocks() returns there.
 MotionBlock refined_block(const BlockSums& sums, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);

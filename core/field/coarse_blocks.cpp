@@ -9,7 +9,7 @@ namespace {
 
 using Eigen::Vector2i;
 
-/// A coarse block with less than the block of a block counts as empty: px of the coarse picture.
+/// A coarse block with fewer counted pixels than a block of the field covers there is empty.
 constexpr int kMinPixels = kBlockArea_px / (kCoarser * kCoarser);
 
 }  // namespace
@@ -53,7 +53,7 @@ BlockMatch CoarseBlocks::best_match(const CoarseField& coarse, const Vector2i& c
   Vector2i tried_px(0, 0);
   coarse.grid.each_around(middle, 1, [&](size_t block) {
     const Vector2i& from_px = coarse.matches[block].from_px;
-    // Neighbours mostly move alike.
+    // Repeated candidates are skipped: neighbours mostly move alike.
     if (from_px == tried_px || from_px == best.from_px || from_px.isZero()) return;
     tried_px = from_px;
     const Vector2i begin_px = corner_px + from_px;

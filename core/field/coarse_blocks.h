@@ -12,10 +12,10 @@ namespace spidar {
 /// Coarse blocks of kCoarser × kCoarser blocks, which overlap their neighbours by half, measured in
 /// the coarse picture: in a picture out of focus, or of ice, no single block shows the motion.
 /// Blocks with corners are left out: their own motion is visible, and they may belong to an object
-/// in front of the wall whose motion is wanted. An empty coarse block has no structure.
+/// in front of the scene whose motion is wanted. An empty coarse block has no structure.
 class CoarseBlocks {
  public:
-  /// Allocates what find() needs for pictures of this size, perhaps long after the first.
+  /// Allocates what find() needs for pictures of this size: its first call may be much later.
   void reserve(const BlockField& field);
   /// Measures the coarse blocks. Lengths are in pixels of the field's picture, structure in (grey /
   /// px)² of the coarse one. There are none while the field stands still.
@@ -26,11 +26,11 @@ class CoarseBlocks {
   BlockMatch best_match(const CoarseField& coarse, const Eigen::Vector2i& corner_px) const;
 
   std::vector<MotionBlock> blocks_;
-  PaddedImage counted_;  ///< of the coarse picture: 255, and 0 in a block with corners
+  PaddedImage counted_;  ///< mask of the coarse picture: 0 in a block with corners, else 255
 };
 
-/// Factor of a limit of texture, in (grey / px)², for a coarse block: the noise of a pixel of the
-/// coarse picture is kCoarser times less than that of the field's.
+/// Scales a limit of texture, in (grey / px)², for a coarse block: a pixel of the coarse picture
+/// has kCoarser times less noise than one of the field's picture.
 constexpr float kCoarseTextureScale = 1.0f / (kCoarser * kCoarser);
 
 }  // namespace spidar

@@ -24,11 +24,11 @@ constexpr double kCombed = 0.005;
 constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
-/// kLines of so many lines of the frame are examined, to save time: some of every block, which
-/// covers at least as many.
+/// Of this many lines of the frame, kLines are examined, to save time. Every block covers at least
+/// this many lines, so a part of it is examined.
 constexpr int kEvery = kBlock_px;
 
-/// Pixels are compared in vectors. The padding of the last one is the same in all lines: no comb.
+/// Pixels are compared in vectors. The padding of the last one shows no comb: all lines have 0.
 constexpr int kLanes = 16;
 
 int combs_in(const std::array<const uint8_t*, kLines>& lines, int width) {

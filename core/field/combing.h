@@ -19,8 +19,8 @@ double comb_fraction(const ImageView& frame, std::vector<uint8_t>& lines);
 /// moments. Fine stripes look the same; a film with such stripes only loses some sharpness.
 class Combing {
  public:
-  /// Examines the next frame and returns whether to take only one field of it. Large frames need no
-  /// answer, because the analysis reads only the lines of one field of them anyway (row_step()).
+  /// Examines the next frame and returns whether to take only one field of it. Returns false for
+  /// large frames, of which the analysis reads only one field anyway (row_step()).
   bool update(const ImageView& frame);
 
  private:

@@ -11,10 +11,10 @@
 namespace spidar {
 namespace {
 
-/// The second step removes what the first one leaves of a whole pixel.
+/// After a motion of a whole pixel, the second step removes the error that the first one leaves.
 constexpr int kSteps = 2;
-/// The smaller eigenvalue of a window's structure tensor, on the mean over its pixels, (grey /
-/// px)². With less, noise of two grey levels moves the window by more than a fifth of a pixel.
+/// The minimum of the smaller eigenvalue of a window's structure tensor, per pixel, (grey / px)².
+/// With less, noise of two grey levels moves the window by more than a fifth of a pixel.
 constexpr float kMinTexture = 0.2f;
 /// The largest mean squared difference with which a window shows the same object, as a fraction of
 /// its variance: a window on the rim of an object shows the background, too, and is left out.
@@ -46,8 +46,8 @@ FineWindows::FineWindows() {
   found_.reserve(kMax);
 }
 
-/// Reads the pixels of a window whose position is set. Returns false where the window does not fit
-/// or shows too little.
+/// Reads the pixels of a window whose position is set. Returns false if the window is not inside
+/// the frame or has too little texture.
 bool FineWindows::read(const ImageView& frame, Template& window) {
   constexpr int kAround = kSide_px + 2;
   if (!read_square(frame, window.left_px - 1, window.top_px - 1, kAround, row_, patch_.data())) {
@@ -73,7 +73,7 @@ bool FineWindows::read(const ImageView& frame, Template& window) {
       yy += gy * gy;
     }
   }
-  // A brightness common to all pixels is not motion: without the means, it has no effect.
+  // The means are removed, because a change of brightness common to all pixels is not motion.
   const auto n = static_cast<float>(kPixels);
   for (float& grey : window.grey) grey -= sum / n;
   for (float& slope : window.x_slope) slope -= x / n;
@@ -98,15 +98,15 @@ void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
 void FineWindows::keep(const ImageView& frame, const BlockField& field,
                        const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
-  // Of many blocks, every second one is taken, and so on.
+  // Of many blocks, only every n-th is used.
   const size_t every = 1 + blocks.size() / (kMax + 1);
   for (size_t i = 0; i < blocks.size() && windows_.size() < kMax; i += every) {
     keep_one(frame, field, position, blocks[i]);
   }
 }
 
-/// Takes one step of a window that is `offset_px` beside the middle of patch_. Returns false where
-/// that is out of reach.
+/// Computes one Gauss–Newton step for a window at `offset_px` from the middle of patch_. Returns
+/// false if the offset is out of reach.
 bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
                        Eigen::Vector2f& step_px, float& residual) const {
   if (!(offset_px.cwiseAbs().maxCoeff() <= kReach_px)) return false;
@@ -137,8 +137,8 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
   return true;
 }
 
-/// Finds a window in `frame`. `moved_px` is first the motion of its block, then that of the window,
-/// px of the frame. Returns false where the window is lost.
+/// Finds a window in `frame`. `moved_px` is the motion of its block on entry and that of the window
+/// on return, px of the frame. Returns false if the window is lost.
 bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px) {
   const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
   // The motion is not finite, or leads outside of any frame.
@@ -165,8 +165,8 @@ const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const B
     return field.blocks()[block].moved_px.cast<double>();
   };
   for (const Template& window : windows_) {
-    // The middle of the window in the picture before, and the block that is there now, give a first
-    // estimate of the new position, and the block at that position gives the motion.
+    // The motion of the block at the window's old position gives a first estimate of the new
+    // position, and the block at that position gives the motion.
     const Eigen::Vector2d corner_px(window.left_px, window.top_px);
     const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
     const Eigen::Vector2d from_px = (middle_px - position.centre_px) / position.scale;

@@ -16,12 +16,12 @@ namespace spidar {
 
 /// Scale and position of a BlockField's picture in its frame.
 struct FieldPosition {
-  double scale = 1;  ///< px of the frame to one px of the field's picture
+  double scale = 1;  ///< px of the frame per px of the field's picture
   /// Centre of the field's picture in the frame, px, where (0, 0) is the centre of the first pixel.
   Eigen::Vector2d centre_px = Eigen::Vector2d::Zero();
 };
 
-/// A window in the middle of a block, and how it moved, px of the field's picture from its centre.
+/// The motion of a window. Positions are relative to the centre of the field's picture, in its px.
 struct FineMotion {
   size_t block = 0;  ///< where the window is now
   Eigen::Vector2d from_px;
@@ -29,10 +29,10 @@ struct FineMotion {
 };
 
 /// Measures in the frame itself how parts of some blocks move. Keeps a small window of the frame
-/// for these blocks, and finds it in the next frame by Gauss–Newton steps from the motion of its
-/// block (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004). The
-/// motion of a block is right to a tenth of a pixel of the reduced picture; the frame has more
-/// pixels, and a second step removes the error of the first one. Allocates only for the first
+/// for each of these blocks, and finds it in the next frame by Gauss–Newton steps from the motion
+/// of its block (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004).
+/// The motion of a block is accurate to a tenth of a pixel of the reduced picture; the frame has
+/// more pixels, and a second step removes the error of the first one. Allocates only for the first
 /// frame.
 class FineWindows {
  public:
@@ -42,8 +42,8 @@ class FineWindows {
   void keep(const ImageView& frame, const BlockField& field, const FieldPosition& position,
             const std::vector<size_t>& blocks);
 
-  /// Finds the windows in the next frame, after the update of `field`. Lost ones are left out.
-  /// Valid until the next call.
+  /// Finds the windows in the next frame, after the update of `field`. Lost windows are left out.
+  /// The result is valid until the next call.
   const std::vector<FineMotion>& find(const ImageView& frame, const BlockField& field,
                                       const FieldPosition& position);
 
@@ -52,9 +52,9 @@ class FineWindows {
   static constexpr size_t kMax = 48;
 
  private:
-  /// Side of a window, px of the frame: in a small frame the block, in a large one a part.
+  /// Side of a window, px of the frame. It covers a block of a small frame, less of a large one.
   static constexpr int kSide_px = kBlock_px;
-  /// How far a step may lead away from the motion of the block, px of the frame.
+  /// How far a window may be from where the motion of its block leads, px of the frame.
   static constexpr int kReach_px = 2;
   static constexpr int kPixels = kSide_px * kSide_px;
 

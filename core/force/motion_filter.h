@@ -71,9 +71,9 @@ class OneEuroFilter {
 
 /// Parameters of the OneEuroFilter. A velocity that changes at a px/s² is delayed by 1 / (2π
 /// (min_cutoff + β a)). The error from this delay is less than 1 / (2π β) where a is constant, 2
-/// px/s with the default β, which cannot be felt (DeadZone::kUnknownError_px_s). In a sway, the
-/// low-pass has at least 0.45 of the largest a: less than 0.36 / β, 4.5 px/s. docs/feeling.md
-/// compares other values.
+/// px/s with the default β, which cannot be felt (DeadZone::kUnknownError_px_s). When the velocity
+/// oscillates, the low-passed rate is at least 0.45 of the largest a: the error is less than 0.36 /
+/// β, 4.5 px/s. docs/feeling.md compares other values.
 struct FilterSettings {
   double min_cutoff_Hz = 1;  ///< finite and ≥ 0; 0 turns the filter off
   double beta_s_px = 0.08;   ///< Hz for each px/s² of the reference frame, finite and ≥ 0

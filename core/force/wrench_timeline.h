@@ -13,7 +13,7 @@ namespace spidar {
 /// The wrench of one frame, and when it is rendered.
 struct TimedWrench {
   int64_t time_ns = 0;  ///< running time at which the frame is shown
-  /// How long after `time_ns` the wrench holds if no later frame follows; then it has expired.
+  /// How long after `time_ns` the wrench holds if no later frame follows; then it expires.
   int64_t hold_ns = 0;
   Wrench wrench;
   /// The frame repeats the previous picture, whose wrench continues from `time_ns` for `hold_ns`.
@@ -56,9 +56,9 @@ struct TimelineResult {
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// The timeline reaches a frame that becomes known late, less than approach_after() ahead of its
-  /// motion, that long after it becomes known, because a step would be felt as a knock. To and from
-  /// zero this takes kApproach_ns.
+  /// A frame that becomes known late, less than approach_after() before its motion, is reached
+  /// approach_after() after it became known, because a step would be felt as a knock. To and from
+  /// zero, this takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
   /// The duration of an approach as a fraction of the interval between two frames: the less often
   /// pictures change, the more the force changes at once, and the longer that takes. A force that
@@ -88,7 +88,7 @@ class WrenchTimeline {
   static constexpr int64_t kRamp_ns = 40'000'000;
 
   /// Returns false, and ignores the entry, when its time is not later than that of the last one. A
-  /// motion before the last frame counts as right after that frame, and one across a gap as at the
+  /// motion before the last frame is moved to just after that frame, and one across a gap to the
   /// time of its own frame. A repeated frame does not shape the curve, which runs from the frame
   /// before it to the next different one; it only prolongs the hold of the previous frame, unless
   /// that has expired. When the timeline is full, it drops the oldest entry.
@@ -122,16 +122,16 @@ class WrenchTimeline {
   };
 
   int64_t soonest(const TimedWrench& before, const TimedWrench& added) const noexcept;
-  /// When the segment to a frame that has just become known begins and ends.
+  /// Chooses when the segment to a newly known frame begins and ends.
   Segment segment_to(const TimedWrench& added) noexcept;
-  /// Sets the slope at the last frame, which depends on the next one, now that the next one is
-  /// known, unless the segment to the last frame has begun.
+  /// Sets the slope at the last frame, which depends on the `next` one, unless the segment to the
+  /// last frame has already begun.
   void join_smoothly(Segment& next) noexcept;
   /// The wrench in the segment of this age or, after the segment, that of its frame.
   Wrench value(size_t age, int64_t time_ns) const noexcept;
 
   History<Segment, kCapacity> segments_;
-  int64_t present_ns_ = INT64_MIN;  ///< nothing was rendered yet
+  int64_t present_ns_ = INT64_MIN;  ///< the time of the last at(); INT64_MIN: none yet
 };
 
 }  // namespace spidar

@@ -10,21 +10,21 @@ namespace spidar {
 /// The singular values and the directions V of the m×n matrix A = U diag(values) Vᵀ. AᵀA has the
 /// eigenvectors V and the eigenvalues values².
 struct SingularValues {
-  Eigen::VectorXd values;  ///< n, descending, not negative; zeros fill up when m < n
+  Eigen::VectorXd values;  ///< n, descending, not negative; padded with zeros if m < n
   /// V, n×n and orthogonal. Columns from the rank of A on are a basis of its null space.
   Eigen::MatrixXd directions;
 };
 
-/// Rank, null space and eigenvectors of a matrix that is not empty and whose size is known only at
-/// run time. Not for the 1 kHz loop, because it allocates. A function compiles Eigen's
-/// decomposition once, which takes up to ten seconds in every file.
+/// Computes the SVD of a non-empty matrix whose size is known only at run time, for its rank, null
+/// space and eigenvectors. Not for the 1 kHz loop, because it allocates. Not inline, because each
+/// file that includes Eigen's decomposition takes up to ten seconds longer to compile.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
 /// Solves a symmetric positive definite system of a few unknowns, picked out of a larger matrix, in
 /// the 1 kHz loop: M y = b, where M consists of the `count` ≤ 8 rows and columns `index`
 /// (ascending) of Q, of which only the upper triangle is read, and b = rhs[index]. The diagonal of
-/// M is multiplied by 1 + damping. M = LDLᵀ without pivoting. Returns false when rounding has left
-/// nothing of a pivot: y is then useless.
+/// M is multiplied by 1 + damping. M = LDLᵀ without pivoting. Returns false when rounding has
+/// cancelled a pivot: y is then invalid.
 template <int kSize>
 bool solve_ldlt(int count, const Eigen::Matrix<double, kSize, kSize>& Q, double damping,
                 const int* index, const double* rhs, double* y) noexcept {

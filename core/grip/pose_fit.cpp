@@ -21,8 +21,8 @@ constexpr double kNoCost_m2 = 1e-24;
 constexpr double kLittleDamping = 1e-4;
 // The longest step of the search: the model is linear over some centimetres only.
 constexpr double kLongestStep_m = 0.02;
-// Near the walls of the frame wrong minima go down to 20 µm; quantisation leaves some 3 µm of the
-// right one. In between, the other starts are tried as well and the best wins.
+// Near the walls of the frame, wrong minima have residuals down to 20 µm; at the right one,
+// quantisation leaves some 3 µm. Above this limit, all starts are tried and the best fit wins.
 constexpr double kSureResidual_m = 10e-6;
 // Over the SPIDAR-G6X3's box the other pose is turned by 0.7 to 1.7 rad times the smallest singular
 // value (rotations scaled by the grip radius), and the ridge between them is half way.
@@ -43,8 +43,8 @@ bool solve(const NormalEquations& equations, double damping, const Twist& rhs, T
   return solve_ldlt(6, equations.H, damping, kAll, rhs.data(), solution.data());
 }
 
-// Rotations by 1 rad about the axes and the diagonals of the cube: no pose within 80° is further
-// than 0.7 rad from one of them or from none.
+// Rotations by 1 rad about the axes and the diagonals of the cube: every rotation by up to 80° is
+// within 0.7 rad of one of them or of no rotation.
 Pose restart(int n) {
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
   if (n < 6) {
@@ -59,7 +59,7 @@ Pose restart(int n) {
 constexpr int kRestarts = 14;
 
 // The direction in which the lengths change least, times the smallest singular value of J: by
-// inverse iteration on H = JᵀJ, which converges fast where that value is much the smallest.
+// inverse iteration on H = JᵀJ, which converges fast where that value is by far the smallest.
 Twist weakest_direction(const NormalEquations& equations) {
   constexpr int kIterations = 6;
   Twist direction;

@@ -21,13 +21,13 @@ struct NormalEquations {
 
 struct PoseFit {
   Pose pose;
-  double residual_m = 0;  ///< root mean square length error of the used strings
+  double residual_m = 0;  ///< RMS length error of the strings that were used
   int iterations = 0;     ///< the number of linearised problems
   bool converged = false;
 };
 
-/// Searches a pose that fits measured string lengths, by least squares. `left_out` and `also` name
-/// strings whose lengths are not used, −1 for none.
+/// Finds the pose that fits the measured string lengths best, by least squares. `left_out` and
+/// `also` name strings whose lengths are not used, −1 for none.
 class PoseFitter {
  public:
   explicit PoseFitter(const StringGeometry& geometry);
@@ -59,7 +59,7 @@ class PoseFitter {
   void linearise(const Pose& pose, const StringVector& length_m, const StringVector& weight,
                  NormalEquations& equations) const noexcept;
 
-  Eigen::Matrix<double, 3, kMaxStrings> exit_m_, grip_m_;  ///< by coordinates
+  Eigen::Matrix<double, 3, kMaxStrings> exit_m_, grip_m_;  ///< one column per string
   int count_;
   double radius_m_;
 };

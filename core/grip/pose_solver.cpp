@@ -15,18 +15,18 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A hand does not reach 1000 m/s², so at 1 kHz the grip is within half a millimetre of the pose
 // that its motion predicts. A pose further off may mean a fault of a string that does not show in
-// the residual. The string counts as faulty when the pose without it is this much nearer.
+// the residual. A string counts as faulty if the pose without it is this much nearer.
 constexpr double kImplausible_m = 1e-3;
 constexpr double kMuchNearer = 0.25;
-// Another string explains the lengths as well unless its fit is this much worse.
+// The faulty string is certain only if leaving out any other one fits worse by this factor.
 constexpr double kUnambiguous = 3;
 // Seven strings predict the length of the eighth. Each of them is off by some third of the largest
 // residual; in bad poses these errors have the same direction.
 constexpr double kMisfit = 3;
-// A string that is at rest while two others have moved by this many largest residuals (about
-// encoder steps) is frozen, if it should have moved too. A fault that grows slowly has already
-// spoilt the expectation when it is noticed: the distance of a frozen string is reduced by the
-// motion of the others, up to the second number.
+// A string is frozen if it stands still while two others have moved by kMissed largest residuals
+// (about encoder steps), although it should have moved too. A slowly growing fault has spoilt the
+// expected pose before it is noticed, so the distance for a frozen string is reduced by the motion
+// of the others, but by kForgiven largest residuals at most.
 constexpr double kMissed = 2;
 constexpr double kForgiven = 10;
 // A string that stands still while two others move by kStill largest residuals may be dead. Strings
@@ -156,7 +156,7 @@ PoseResult PoseSolver::track_without_one(const StringVector& lengths_m,
   return result;
 }
 
-// Without an expectation only the residual can decide.
+// Without an expected pose, only the residual can tell which string is faulty.
 PoseResult PoseSolver::locate_without_one(const StringVector& lengths_m,
                                           const Pose& start) const noexcept {
   PoseResult result = rejected(PoseStatus::kNotConverged);
@@ -243,7 +243,7 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
   for (int round = 0; round < kRounds && !fit.converged; ++round) {
     fit = fitter_.gauss_newton(lengths_m, fit.pose, one, other);
   }
-  // When the six do not converge, a tracked pose stays, and a searched one counts as wrong.
+  // If the fit of the six does not converge, a tracked pose is kept, and a located one is rejected.
   if (!fit.converged) return !tracked;
   const double apart_m = fitter_.twist(fit.pose, result.pose).norm();
   const auto elsewhere = [&](int i) {
@@ -269,9 +269,9 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};
 }
 
-// Replaces a pose that was not found, or is further from the expected one than a hand can have
-// moved the grip, by one without a string, if that pose exists and is much nearer, and the string
-// has another length there. Near the walls, poses with almost the same lengths lie apart.
+// If no pose was found, or one further from the expected pose than a hand can move the grip,
+// returns the pose without one string instead, if it exists, is much nearer, and gives that string
+// another length. Near the walls, poses with almost the same lengths lie apart.
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;
@@ -332,7 +332,7 @@ PoseResult PoseSolver::solve(const StringVector& lengths_m) noexcept {
   if (tracked.status == PoseStatus::kBadInput) return tracked;
   const bool near = fitter_.twist(start, tracked.pose).norm() <= kImplausible_m;
   if (tracked.status == PoseStatus::kSolved && (near || !guess)) return tracked;
-  if (guess) last_ = start;  // the search may have found one of two poses
+  if (guess) last_ = start;  // track() may have found the wrong one of two poses
   PoseResult located = locate(lengths_m);
   located.iterations += tracked.iterations;
   return located;

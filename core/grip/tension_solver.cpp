@@ -304,7 +304,7 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   const Bounds bounds{problem.t_min_N, problem.t_max_N};
   TensionResult result;
   if (is_valid(problem, objective, bounds)) {
-    // When nothing pulls, the solution may be zero, so the rest of the last tensions has no scale.
+    // Without a pull, the tolerance shrinks with the tensions: a warm start might never meet it.
     const bool warm = warm_ && objective.has_pull();
     Search search(objective, bounds, warm ? last_N_ : problem.t_ref_N);
     if (!warm) search.free_all();

@@ -13,11 +13,11 @@ namespace {
 
 /// Intervals that differ by less than this fraction count as equal: rounding and jitter of a clock.
 constexpr double kSameInterval = 0.2;
-/// A single different interval among so many is an accident. In a rhythm, at least one interval in
-/// five differs, as with 25 pictures a second in 30 frames. (With 24 in 25, one in 24 differs, and
-/// without it the interval is only 4 % too short.)
+/// A single different interval among this many is an outlier. In a cadence, at least one interval
+/// in five differs, as with 25 pictures a second in 30 frames. (With 24 in 25, one in 24 differs,
+/// and without it the interval is only 4 % too short.)
 constexpr size_t kAccidentIn = 2 * 5;
-/// Fewer pictures do not show a rhythm: two periods of the shortest one, in which two pictures are
+/// Fewer pictures do not show a cadence: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kMinPictures = 2 * 2;
 /// Fewer intervals have no majority from which one could differ.
@@ -44,8 +44,8 @@ void Cadence::remember(const Shown& shown) {
   shown_.add(shown);
 }
 
-/// Joins the intervals that the first repetitions of a coded film have cut in pieces, because these
-/// repetitions passed for pictures.
+/// Joins intervals that were split because the first repetitions in a coded film passed for new
+/// pictures.
 void Cadence::join_pieces(const RepeatedPicture::Repeats& repeats) {
   const History<Shown, kPictures> pieces = shown_;
   shown_.clear();
@@ -88,7 +88,7 @@ int64_t Cadence::median_ns() const {
   return median(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(shown_.size()));
 }
 
-/// Whether the latest intervals are like this one, except for an accident.
+/// Whether at most one of the latest intervals differs from this one.
 bool Cadence::is_alike_but_for_one(int64_t interval_ns) const {
   size_t unlike = 0;
   for (size_t i = 0; i < std::min(shown_.size(), kAccidentIn); ++i) {
@@ -98,9 +98,9 @@ bool Cadence::is_alike_but_for_one(int64_t interval_ns) const {
   return shown_.size() >= kMinMajority && unlike <= 1;
 }
 
-/// Interval of the latest `pictures` if they were taken at even intervals and each of them is shown
-/// from the next frame on: the slope of the line through the times at which they were first shown.
-/// 0 when one of them is further from the line than a frame.
+/// Interval of the latest `pictures` if they were taken at even intervals and each is first shown
+/// by the next frame: the slope of the line through the times at which they were first shown. 0
+/// when one of them is further from the line than a frame.
 double Cadence::even_interval_ns(size_t pictures) const {
   std::array<double, kPictures + 1> first_shown_ns{};
   double frames = 0;
@@ -120,11 +120,11 @@ double Cadence::even_interval_ns(size_t pictures) const {
   return latest_ns - earliest_ns <= (1 + kSameInterval) * frame_ns ? slope_ns : 0;
 }
 
-/// The time between two pictures in the rhythm of as many of the latest ones as have kept one. 0
-/// when none is known.
+/// The time between two pictures in the cadence of as many of the latest ones as share one; 0 if
+/// there is none.
 int64_t Cadence::learnt_ns() const {
   if (!knows_repeats()) return 0;
-  // This also holds when the picture begins to move again after a rest.
+  // The interval that may differ can be a rest, after which the picture moves again.
   if (const int64_t median = median_ns(); is_alike_but_for_one(median)) return median;
   for (size_t pictures = shown_.size(); pictures >= kMinPictures; pictures /= 2) {
     if (const double even_ns = even_interval_ns(pictures); even_ns > 0) {

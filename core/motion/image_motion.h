@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The motions of a picture that can be rendered: the paper's mean, and those of an object, of the
-/// objects at a pointer or in a box, and of the camera; and how fast a motion can be.
+/// The motions that can be rendered: the paper's mean, the motion of an object, of the objects at a
+/// pointer or in a box, and of the camera; and the limits of a motion.
 #pragma once
 
 #include <cstdint>
@@ -87,8 +87,8 @@ ImageMotion relative_motion(const MovingObject& object);
 constexpr int64_t kMinInterval_ns = 500'000;
 
 /// `motion`, limited to what can be seen in `interval_s` > 0: a displacement of the frame's width,
-/// lengths twice or half as large, half a turn. Directions stay. A value that is not finite becomes
-/// 0.
+/// lengths twice or half as large, half a turn. Directions are kept. A value that is not finite
+/// becomes 0.
 ImageMotion bound_motion(const ImageMotion& motion, int frame_width, double interval_s);
 
 }  // namespace spidar

@@ -8,9 +8,9 @@
 namespace spidar {
 
 /// Distinguishes a lost frame from a repeated picture. A frame may have been repeated because the
-/// one after it was lost: the picture has then moved on in the meantime, and the time between the
-/// frames is right, not that of the rhythm. The speed decides: with the right time, it is close to
-/// the previous speed.
+/// one after it was lost: the film has then moved on in the meantime, and the interval between the
+/// frames is right, not that of the cadence. The speed decides: with the right interval, it is
+/// close to the previous speed.
 class LostFrames {
  public:
   /// Returns a factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1,
@@ -33,7 +33,7 @@ class LostFrames {
 
  private:
   /// The other speed must be closer by more than this fraction. A judgement, not derived: where
-  /// both are about as close, noise would choose.
+  /// both are about as close, noise would decide.
   static constexpr double kCloserBy = 0.2;
 
   double last_px_s_ = 0;  ///< the previous speed, corrected

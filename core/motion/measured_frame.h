@@ -29,8 +29,8 @@ struct MeasuredFrame {
   /// Zero unless motion=mean, with which all members below are empty.
   ImageMotion mean;
   std::optional<Background> background;  ///< how the camera moves; nothing with kFirst
-  int votes = 0;                         ///< displacements of the background
-  std::vector<MovingObject> objects;     ///< the known ones, visible or not, ordered by id
+  int votes = 0;                         ///< number of votes for the background
+  std::vector<MovingObject> objects;     ///< known objects, visible or not, ordered by id
   uint32_t dominant = 0;                 ///< id of the object that motion=object feels; 0: none
 
   /// Null when no object is dominant.

@@ -27,7 +27,7 @@ void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& 
   windows_.keep(frame, field_, position, of_objects_);
 }
 
-/// Lists the blocks that show how they move as points, with their number as id.
+/// Lists the blocks that show how they move as points; the id is the index of the block.
 void MotionEstimator::report_points(const FieldPosition& position,
                                     std::vector<FollowedPoint>& points) const {
   points.clear();
@@ -60,8 +60,8 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   const Background& background = camera_.find(field_, objects_.past());
   frame.background = in_pixels_of(background, position.scale);
   frame.votes = static_cast<int>(camera_.votes());
-  // The camera's motion needs them, too: blocks that move by themselves or are burned in have less
-  // of a vote, or none.
+  // The camera's motion depends on the objects, too: blocks that move by themselves or are burned
+  // in have a smaller vote, or none.
   const Eigen::Vector2d middle_px((reduced.width() - 1) / 2.0, (reduced.height() - 1) / 2.0);
   const FieldInFrame in_frame{field_, position.scale, position.centre_px - middle_px, interval_s,
                               fine};

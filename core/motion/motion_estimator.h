@@ -25,7 +25,7 @@ class MotionEstimator {
   explicit MotionEstimator(std::shared_ptr<uint32_t> next_id = std::make_shared<uint32_t>(1))
       : objects_(std::move(next_id)) {}
 
-  /// Takes a picture, both as it is and as `reduced`, and fills in what moves in `frame`, whose
+  /// Takes a picture, both as it is and as `reduced`, and sets the motion in `frame`, whose
   /// `interval_ns` > 0 is the time since the previous one. Returns false when there is nothing to
   /// compare with: the first picture, another size, or a cut. `felt` is the object that was felt
   /// before; 0: none.
@@ -44,7 +44,7 @@ class MotionEstimator {
   ObjectTracker objects_;
   DominantObject dominant_;
   FineWindows windows_;
-  std::vector<size_t> of_objects_;  ///< blocks
+  std::vector<size_t> of_objects_;  ///< indices of the blocks of all objects
 };
 
 }  // namespace spidar

@@ -15,8 +15,8 @@
 namespace spidar {
 namespace {
 
-/// A pixel of the reduced picture has changed if it differs by more than so many grey levels: more
-/// than rounding and the changes of good encoders in a still picture.
+/// A pixel of the reduced picture has changed if it differs by more than this many grey levels:
+/// more than rounding and the changes of good encoders in a still picture.
 constexpr uint8_t kChanged_grey = 3;
 /// A change adds kRise to the level of a pixel, up to kMaxLevel, and each picture takes 1 from it.
 /// From kLasts on, which takes two changes within some pictures, a pixel changes lastingly. After
@@ -24,30 +24,29 @@ constexpr uint8_t kChanged_grey = 3;
 constexpr uint8_t kRise = 8;
 constexpr uint8_t kLasts = 2 * kRise - 2;
 constexpr uint8_t kMaxLevel = 3 * kRise;
-/// While nothing shows that a film covers a part of the picture, one of so many pictures is
-/// examined.
+/// While nothing suggests a film in a part of the picture, one of this many pictures is examined.
 constexpr int kLookEvery = 8;
-/// A change between the first two pictures may be lasting.
+/// A change between the first two pictures counts as lasting for the next kStays pictures.
 constexpr uint8_t kFirstRise = kLasts + AreaFinder::kStays;
 
 constexpr int kAreaCell_px = 8;
 
-/// A side is straight if on so much of its length the changes begin within two lines of pixels. The
-/// sides of a disc of 80 px have 0.2 and 0.3.
+/// A side is straight if on this fraction of its length the changes begin within two lines of
+/// pixels. The sides of a disc of 80 px have 0.2 and 0.3.
 constexpr double kStraight = 0.4;
-/// Two cells, of which the outer one may have a line only.
+/// Depth of the search for a side: two cells, of which the outer one may have only one line.
 constexpr int kNear_px = 2 * kAreaCell_px;
 /// This fraction of the changes that begin at a side must also be in the newest picture: where an
 /// object has left, nothing changes.
 constexpr double kStillChanges = 0.1;
-/// The smallest film, as a fraction of the picture's width and height, and of its cells that
-/// change.
+/// The smallest film: kSmallest of the picture's width and height, with kFilled of its cells
+/// changing.
 constexpr double kSmallest = 0.15;
 constexpr double kFilled = 0.4;
 /// A side is crossed if most of what is beside it changes, and a whole page is another film if most
 /// of it changes at once.
 constexpr double kMost = 0.5;
-/// A film continues while one in so many of another rectangle's changes is in the film: an object
+/// A film continues while it has one change for this many changes in another rectangle: an object
 /// in a third of the width and height of a film of that size.
 constexpr int kPartsThatGoOn = 9;
 /// The widest bar beside a film, as a fraction of the picture: of 4:3 in 16:9.
@@ -84,12 +83,12 @@ cv::Mat mat_of(PaddedImage& map) {
   return {map.height(), map.width(), CV_8U, map.row(0), static_cast<size_t>(map.stride())};
 }
 
-/// Returns in how many pixels of a part a map is set.
+/// Returns the number of pixels of `part` in which `map` is set.
 int set_in(const PaddedImage& map, const PicturePart& part) {
   return cv::countNonZero(const_mat(part_of(map.view(), part)));
 }
 
-/// Returns in how many places along a part a map is set at either of two columns or rows.
+/// Returns the number of places along `part` where `map` is set at either of two columns or rows.
 int set_along(const PaddedImage& map, const PicturePart& part, bool is_column, int at, int or_at) {
   if (std::min(at, or_at) < 0 || std::max(at, or_at) >= (is_column ? map.width() : map.height())) {
     return 0;
@@ -130,14 +129,14 @@ bool AreaFinder::take(const ImageView& picture) {
   const v_uint8x16 most = cv::v_setall_u8(kMaxLevel), lasts = cv::v_setall_u8(kLasts);
   std::swap(now_, before_);
   keep(picture);
-  const int width = width_;  // not a member: bytes that are stored may be anything
+  const int width = width_;  // a local copy, because stored bytes may alias a member
   for (int y = 0; y < height_; ++y) {
     const uint8_t *const now = now_.row(y), *const before = before_.row(y);
     uint8_t *const changed = changed_.row(y), *const levels = levels_.row(y);
     uint8_t* const lasting = lasting_.row(y);
-    for (int x = 0; x < width; x += 16) {  // maps are wider by more than that
+    for (int x = 0; x < width; x += 16) {  // the last vector ends in the padding
       const v_uint8x16 change = cv::v_absdiff(cv::v_load(now + x), cv::v_load(before + x)) > grey;
-      const v_uint8x16 had = cv::v_load(levels + x) - one;  // not below 0
+      const v_uint8x16 had = cv::v_load(levels + x) - one;  // saturates at 0
       const v_uint8x16 has = cv::v_min(had + (change & rise), most);
       cv::v_store(changed + x, change);
       cv::v_store(levels + x, has);
@@ -157,7 +156,7 @@ bool AreaFinder::take(const ImageView& picture) {
   return !repeats;
 }
 
-/// Cells in which so many pixels change as a line of them has.
+/// Marks the cells in which at least as many pixels change as a line of a cell has.
 void AreaFinder::count_cells() {
   constexpr uint64_t kOnes = 0x0101010101010101u;
   for (int row = 0; row < cells_.height(); ++row) {
@@ -224,7 +223,7 @@ AreaFinder::Side AreaFinder::side_of(const PicturePart& part, bool is_column, bo
 }
 
 /// Whether the changes are a rectangle that is neither the whole picture nor everything between two
-/// bars. At most one of its sides may not show, as below a sky.
+/// bars. At most one of its sides may be invisible, as below a sky.
 bool AreaFinder::has_straight_sides(Candidate& candidate) const {
   // side_of() looks inwards.
   if (candidate.part.width <= 2 * kNear_px || candidate.part.height <= 2 * kNear_px) return false;
@@ -290,7 +289,7 @@ bool AreaFinder::confirm(const Candidate& candidate) {
   return ++stayed_ >= kStays && compared_ > kStays;
 }
 
-/// Returns beside how many sides most of a map is set.
+/// Returns the number of sides of part_ beside which most of `map` is set.
 int AreaFinder::crossed_sides(const PaddedImage& map) const {
   int crossed = 0;
   for (size_t i = 0; i < sides_.size(); ++i) {
@@ -303,7 +302,7 @@ int AreaFinder::crossed_sides(const PaddedImage& map) const {
   return crossed;
 }
 
-/// Searches the film anew.
+/// Restarts the search for the film.
 void AreaFinder::search(State state, int64_t running_ns) {
   state_ = state;
   since_ns_ = running_ns;
@@ -360,7 +359,7 @@ void AreaFinder::tell(bool moves, double across_px, double down_px, int64_t runn
     for (size_t i = 2 * axis; i < 2 * axis + 2; ++i) {
       const Side& side = pending_.sides[i];
       if (side.is_border) continue;
-      if (side.is_left) stayed_ = 0;  // it is that of an object
+      if (side.is_left) stayed_ = 0;  // an object has left it
       shows = true;
       stays = stays && stands(side, pending_.part, axis == 0, i % 2 != 0);
     }

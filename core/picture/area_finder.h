@@ -29,13 +29,13 @@ namespace spidar {
 ///
 /// A film whose camera rests changes only where an object is, and shows no rectangle. A known
 /// rectangle is therefore kept until something crosses its sides: another film, or a page that
-/// moves. Then the film is searched anew, for up to kSearch_ns; if none is found, the film is the
+/// moves. Then the search starts anew, for up to kSearch_ns; if none is found, the film is the
 /// whole picture. After a page has scrolled from picture to picture, there is no film until one is
 /// found, most of the picture changes, or nothing has scrolled for kRests_ns. A single picture that
 /// shows the previous one scrolled is ignored: a film without noise may have such a picture.
 ///
-/// For one thread at a time. Allocates when the size changes, and for what moves before a picture
-/// at rest.
+/// For one thread at a time. Allocates when the size changes, and while something moves in front of
+/// a picture at rest.
 class AreaFinder {
  public:
   /// Takes the next picture, reduced to 8 bits; a repetition of the previous one changes nothing.
@@ -53,7 +53,7 @@ class AreaFinder {
   }
   /// The area or, while there is none, a guess at it; nothing: the whole picture.
   std::optional<PicturePart> film() const { return is_guess() ? pending_.part : area(); }
-  /// Whether film() is not sure.
+  /// Whether film() is a guess.
   bool is_guess() const { return state_ == State::kWhole && stayed_ > 0 && !scrolls_; }
   /// Takes whether anything in film() moves while that is a guess, and the mean displacement to the
   /// last picture. This may confirm or refute the guess.
@@ -64,11 +64,11 @@ class AreaFinder {
   /// Begins another film.
   void reset() { *this = {}; }
 
-  /// For how many pictures a rectangle must stay before it counts as the film. In so many pictures,
-  /// a rectangular object whose texture changes by kChanged_grey a picture moves by more than a
-  /// pixel.
+  /// For how many pictures a rectangle must stay before it counts as the film. In this many
+  /// pictures, a rectangular object whose texture changes by kChanged_grey a picture moves by more
+  /// than a pixel.
   static constexpr int kStays = 4;
-  /// How often blurred copies beside the film are searched.
+  /// How often to look for blurred copies beside the film.
   static constexpr int64_t kCopies_ns = 1'000'000'000;
   static constexpr int64_t kSearch_ns = 1'000'000'000;
   /// How long nothing must change in the film before another one replaces it. A part of the film
@@ -77,10 +77,10 @@ class AreaFinder {
 
  private:
   enum class State : uint8_t {
-    kWhole,          ///< the film is all of the picture, or what is `pending_`
+    kWhole,          ///< the film is the whole picture, or perhaps `pending_`
     kFound,          ///< in `part_`
     kBetweenCopies,  ///< in `part_`, beside blurred copies of itself
-    kSearching,      ///< it is not known, and was in `part_`
+    kSearching,      ///< the film is unknown, and was in `part_`
     kPage,           ///< the same, in a page that scrolls, or has scrolled
   };
   struct Side {
@@ -119,22 +119,22 @@ class AreaFinder {
   PaddedImage changed_;  ///< 255 where the newest picture differs from the one before
   PaddedImage levels_;   ///< see kRise
   PaddedImage lasting_;  ///< 255 where a pixel changes lastingly
-  PaddedImage cells_;    ///< 255 where a line of a cell does
+  PaddedImage cells_;    ///< 255 where at least a line of a cell changes lastingly
   int width_ = 0;
   int height_ = 0;
   int compared_ = 0;  ///< pictures that have changed
   int lasting_pixels_ = 0;
   size_t skipped_ = 0;    ///< repeated pictures in a row
-  int passed_ = 0;        ///< pictures in a row that were not looked at
+  int passed_ = 0;        ///< pictures in a row that were not examined
   bool scrolls_ = false;  ///< the newest picture is the one before, scrolled
   Candidate pending_;
-  int stayed_ = 0;                    ///< pictures in which it has been `pending_`
+  int stayed_ = 0;                    ///< pictures for which `pending_` has stayed
   std::array<double, 2> moved_px_{};  ///< motion of its content since then
   std::array<Side, 4> sides_;         ///< of the film that is found
   int crossed_ = 0;  ///< pictures in which something has lastingly crossed its sides
   SharpSides sharp_sides_;
-  std::optional<int64_t> copies_ns_;  ///< when these were looked for last
-  int missed_ = 0;                    ///< times in a row that there were none
+  std::optional<int64_t> copies_ns_;  ///< when copies were last looked for
+  int missed_ = 0;                    ///< searches in a row that found no copies
 };
 
 }  // namespace spidar

@@ -15,15 +15,15 @@ namespace spidar {
 struct AreaSetting {
   enum class Kind : uint8_t {
     kWhole,
-    kAuto,   ///< the one that AreaFinder finds
+    kAuto,   ///< the part that AreaFinder finds
     kFixed,  ///< `part`
   };
 
   Kind kind = Kind::kAuto;
   PicturePart part;  ///< px; parts outside a picture are left out
 
-  /// The part of a picture of this size, all of it with kAuto; one with a side below kMinSide_px
-  /// cannot be analysed.
+  /// Returns the part to analyse of a picture of this size: the whole picture unless kFixed. A part
+  /// with a side below kMinSide_px cannot be analysed.
   PicturePart of_picture(int width, int height) const {
     if (kind != Kind::kFixed) return {0, 0, width, height};
     const int left = std::clamp(part.x, 0, width), top = std::clamp(part.y, 0, height);
@@ -40,7 +40,7 @@ struct FilmPlace {
   int picture_width = 0;
   int picture_height = 0;
   bool is_known = true;  ///< false while AreaFinder searches: nothing is measured
-  bool is_page = false;  ///< that is searched, and has scrolled
+  bool is_page = false;  ///< whether the search is in a page that has scrolled
 
   static FilmPlace whole(int width, int height) { return {{0, 0, width, height}, width, height}; }
 

@@ -38,9 +38,8 @@ void run_on_this_thread(Work&& work) {
   cv::parallel_for_(cv::Range(0, 1), [&work](const cv::Range&) { work(); });
 }
 
-/// Σ |a − b| over rows of 16 pixels. x86 adds up eight pixels in one instruction; taking its two
-/// sums together for each row, as cv::v_reduce_sad() does, would cost twice as much as the
-/// differences.
+/// Σ |a − b| over rows of 16 pixels. x86 adds up eight pixels in one instruction; combining its two
+/// sums for each row, as cv::v_reduce_sad() does, would cost twice as much as the differences.
 class DifferenceSum {
  public:
   void add(const cv::v_uint8x16& a, const cv::v_uint8x16& b) {

@@ -24,7 +24,7 @@ v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels) {
   return (pairs & cv::v_setall_u16(0xFF)) + (pairs >> 8);
 }
 
-/// The same for `kRows` rows, `step` bytes apart.
+/// The same sums over `kRows` rows, `step` bytes apart.
 template <int kRows, typename Reader>
 v_uint16x8 pair_sums(const Reader& reader, const uint8_t* pixels, ptrdiff_t step) {
   v_uint16x8 sum = pair_sums(reader, pixels);
@@ -89,7 +89,7 @@ int reduce_by_power_of_2(const Reader& reader, const SourceRows row, uint8_t* to
   const v_uint16x8 inverse = cv::v_setall_u16(65536 / kCount);
   int x = 0;
   for (; x + 8 <= row.columns; x += 8) {
-    // Where several vectors share a cache line, once per line.
+    // A cache line that several vectors share is prefetched once.
     const bool begins_line = 8 * kBlock >= kCacheLine || x * kBlock % kCacheLine == 0;
     for (int k = 0; begins_line && k < kRows; ++k) {
       for (int i = 0; i < 8 * kBlock; i += kCacheLine) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// A picture with space for windows beyond its edge, and the reductions that make one.
+/// A picture with padding for windows beyond its edge, and the reductions that produce one.
 #pragma once
 
 #include <cstddef>

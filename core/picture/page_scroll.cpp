@@ -11,31 +11,31 @@
 namespace spidar {
 namespace {
 
-/// How many lines from its place a patch is searched: lines of text are less far apart.
+/// A patch looks for detail in this many lines from its place: lines of text are less far apart.
 constexpr int kDetailWithin_px = 32;
-/// How many of the changed patches are searched. In a page whose films have half of the patches,
-/// one of 64 scrolled pictures has all of them in films.
+/// How many of the changed patches are searched. If films have half of the patches of a page, all
+/// tries fall into films in one of 64 scrolled pictures.
 constexpr int kTries = 6;
 /// At least this many patches must have scrolled, minus those that a step takes out of a window of
 /// half the picture's height, in columns or rows where no other patches have changed. Fewer may be
 /// an object before a plain wall, of which encoders make exact copies: a third of both sides
 /// touches 16.
 constexpr int kMinScrolled = 20;
-/// The largest step, as a fraction of the height: the analysis does not follow a larger one either,
-/// and takes the picture for a cut.
+/// The height of the picture over the largest step: the analysis does not follow a larger one
+/// either, and takes the picture for a cut.
 constexpr int kHeightsOfStep = 4;
 
-/// In so many pictures, the content of a scrolling page has rested before, or has scrolled. The
-/// content of a panning camera moves in other directions, too: between two of its pictures are up
-/// to five repetitions, in a film of 24 a second on a screen of 144.
+/// For this many pictures, the content of a scrolling page has rested before, or has only scrolled.
+/// The content of a panning camera moves in other directions, too: between two of its pictures are
+/// up to five repetitions, in a film of 24 pictures a second on a screen of 144 Hz.
 constexpr int kRests = 6;
 
 /// Readable text has a contrast of at least 3:1 (WCAG 2.1, 1.4.3): from black on, 89 grey levels.
 /// The traces of encoders around copied objects are below a third of that.
 constexpr int kPlain_grey = 30;
 
-/// Whether the pixels of a patch's line differ by as much. Otherwise every edge of two plain parts
-/// would look like every other.
+/// Whether the pixels of a line of a patch differ by more than that. Otherwise every edge between
+/// two plain parts would look like every other.
 bool varies(const uint8_t* line, const LumaSample& sample) {
   if (sample.bytes == 1) {
     const cv::v_uint8x16 pixels = cv::v_load(line);

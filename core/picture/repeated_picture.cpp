@@ -72,8 +72,8 @@ float largest_change(const ImageView& before, const ImageView& now) {
 
 RepeatedPicture::Rhythm RepeatedPicture::rhythm(float fraction) const {
   Rhythm rhythm;
-  float largest = 0;  // change of a run
-  size_t begin = 0;   // of a run, in frames ago
+  float largest = 0;  // the largest change of the run
+  size_t begin = 0;   // of the run, in frames ago
   bool in_run = false;
   for (size_t i = changes_.size(); i-- > 0;) {
     const float change = changes_[i];

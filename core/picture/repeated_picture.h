@@ -78,9 +78,9 @@ class RepeatedPicture {
   /// between two pictures may change as little, and is then held for a frame: at this limit, and
   /// where a picture changes in proportion to its displacement, one turn in 16.
   static constexpr float kFractionAtOnce = 0.03f;
-  /// The number of frames after a large change in which that limit holds, because a picture that
-  /// comes to rest all at once waits in vain: one of 24 in 60, or one drawn on threes, is repeated
-  /// twice.
+  /// The number of frames after a large change in which that limit holds: a picture of 24 in 60
+  /// frames, or one drawn on threes, is repeated twice. With more frames, a picture that comes to
+  /// rest all at once would wait in vain.
   static constexpr size_t kMaxAtOnce = 2;
 
  private:
@@ -97,7 +97,7 @@ class RepeatedPicture {
   bool is_small(float change) const;
 
   History<float, kFrames> changes_;  ///< see largest_change()
-  bool had_rhythm_ = false;          ///< before the cut
+  bool had_rhythm_ = false;          ///< whether there was a rhythm before the cut
 };
 
 constexpr size_t kChangedBlocks = 8;

@@ -8,20 +8,19 @@
 namespace spidar {
 namespace {
 
-/// How many times sharper, in three quarters of the bands across it, a film is than what is beside
-/// it: lines of bold letters over a film are in half of them.
-/// A blur of σ = 1 px divides the sharpness of a texture whose amplitudes are those of natural
-/// pictures, 1 / f, by 6.0, and enlarging it as far as an upright film is, by 7.7; coding noise,
-/// which both sides have, takes a part of that.
+/// A film is this many times sharper than what is beside it in three quarters of the bands: lines
+/// of bold letters over a film are in half of them. A blur of σ = 1 px divides the sharpness of a
+/// texture whose amplitudes are those of natural pictures, 1 / f, by 6.0, and enlarging it as far
+/// as an upright film is, by 7.7; coding noise, which both sides have, takes a part of that.
 constexpr float kSharper = 3;
 /// Sharpness of a plain picture after coding, grey levels.
 constexpr float kPlainSharpness_grey = 0.15F;
-/// A side is a bar if the means of neighbouring bands of it differ by less, grey levels.
+/// A side is a bar if the means of its neighbouring bands differ by less than this, grey levels.
 constexpr int kBar_grey = 1;
 constexpr int kBand_px = 8;
-constexpr int kLine_px = 4;  ///< from one line of a band that is looked at to the next
-/// How much is compared on both sides of a seam, and how far from it that begins: a seam is as
-/// sharp as a film.
+constexpr int kLine_px = 4;  ///< distance between the examined lines of a band
+/// The width of the strips that are compared on both sides of a seam, and their distance from it: a
+/// seam is as sharp as a film.
 constexpr int kStrip_px = 16;
 constexpr int kSeam_px = 2;
 /// The widest side, as a fraction of the picture.

@@ -33,7 +33,7 @@ class SharpSides {
 
   int length_ = 0;  ///< of a band
   int bands_ = 0;
-  std::vector<Sums> sums_;  ///< of each band, up to each place
+  std::vector<Sums> sums_;  ///< cumulative sums along each band
   std::vector<float> ratios_;
 };
 

@@ -18,7 +18,7 @@
 namespace spidar {
 namespace {
 
-/// Points followed at once, as in the usual examples of Lucas–Kanade.
+/// The maximum number of points, as in the usual examples of Lucas–Kanade.
 constexpr int kMaxFeatures = 200;
 /// New points are selected when fewer than this fraction of the last selection is left …
 constexpr double kThinnedOut = 0.7;
@@ -177,7 +177,7 @@ void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   }
   std::swap(before, now);
   constexpr bool kWithDerivatives = true;  // used twice: forwards from this picture, and back
-  constexpr bool kReuseInput = false;      // the input lives shorter than the pyramid
+  constexpr bool kReuseInput = false;      // the pyramid outlives the input
   cv::buildOpticalFlowPyramid(const_mat(reduced.base().view()), now,
                               cv::Size(kWindow_px, kWindow_px), kMaxPyramidLevel, kWithDerivatives,
                               cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, kReuseInput);
@@ -231,7 +231,7 @@ bool OpenCvTracker::Impl::selection_is_due() const {
 }
 
 /// Selects the strongest corners of the picture (eq. 1). A corner near a followed point is that
-/// point; a point without a corner is dropped. So a new object gets its fraction of the points.
+/// point; a point without a corner is dropped. Thus a new object gets its share of the points.
 void OpenCvTracker::Impl::select() {
   const cv::Mat& image = now[0];
   // Closer to the border the eigenvalues include mirrored pixels.

@@ -20,7 +20,7 @@ class CellSpans {
   struct Span {
     int first = 0;
     int count = 0;
-    size_t weight = 0;  // the index of its first weight
+    size_t weight = 0;  // index of the first weight
   };
 
   /// Allocates only when `samples` differs from the last call. `samples` and `cells` ≥ 1.

@@ -21,7 +21,7 @@ struct Position {
 
   /// `u` is in samples, with 0 at the first of `count`. Samples outside repeat the border sample.
   Position(double u, int count) noexcept {
-    // Two samples outside, all four equal the border sample. The negation also catches NaN.
+    // From two samples outside on, all four are the border sample. The negation also catches NaN.
     if (!(u > -2)) u = -2;
     if (!(u < count + 1)) u = count + 1;
     const double below = std::floor(u);

@@ -20,9 +20,9 @@ struct SurfacePoint {
   }
 };
 
-/// A smooth height field over the picture: heights z in the device frame, over a picture whose
-/// centre is the device's origin: columns from left (−x) to right, rows from the top (+y) down. A
-/// sample lies at the centre of its cell.
+/// A smooth height field: heights z in the device frame, over a picture whose centre is the
+/// device's origin. Columns run from left (−x) to right, rows from the top (+y) down. A sample lies
+/// at the centre of its cell.
 ///
 /// The surface is the uniform cubic B-spline with the samples as its coefficients (C. de Boor, A
 /// Practical Guide to Splines). Its height, slope and curvature are continuous. It does not pass

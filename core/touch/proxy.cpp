@@ -39,8 +39,8 @@ void Proxy::move(const MovingRelief& surface, double friction, const Eigen::Vect
   started_ = true;
 }
 
-/// Reduces the shift of the surface, which falls faster than it rises, because it then gives no
-/// energy.
+/// Reduces the shift of the surface. The surface falls faster than it rises, because a falling
+/// surface gives no energy.
 double Proxy::settled_m(double dt_s) noexcept {
   if (shift_m_ >= 0) {
     rise_m_s_ = 0;

@@ -54,8 +54,8 @@ class Proxy {
   static constexpr double kRise_m_s2 = 0.4;
   static constexpr int kMostSteps = 8;  ///< of half a cell each, in a tick
 
-  /// One tick, `dt_s` > 0 after the last. `grip_m` in the device frame. Neither allocates nor
-  /// throws. A non-finite grip position ends the contact.
+  /// Performs one tick, `dt_s` > 0 after the last one. `grip_m` is in the device frame. Neither
+  /// allocates nor throws. A non-finite grip position ends the contact.
   void move(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m,
             double dt_s) noexcept;
 

@@ -51,7 +51,7 @@ Json event(double time_s, double duration_s) {
               {{"ParameterID", "HapticSharpness"}, {"ParameterValue", kSharpness}}}}}}};
 }
 
-/// Writes curves of some points each; the last point of a curve is the first of the next.
+/// Writes curves of kMaxPoints each; the last point of a curve is the first of the next.
 class AhapCurveWriter {
  public:
   AhapCurveWriter(const WriteText& write, bool is_first) : write_(write), is_first_(is_first) {}

@@ -17,13 +17,13 @@ namespace spidar {
 struct SampleSource {
   using Take = std::function<void(const TrackSample&)>;
   size_t count = 0;
-  /// Passes all samples in order to its argument, at every call.
+  /// Each call passes all samples in order to its argument.
   std::function<void(const Take&)> each;
 };
 /// Receives the next piece of the written file.
 using WriteText = std::function<void(const std::string&)>;
 
-/// Says what is wrong with a file, and where.
+/// An error in a file. The message says what is wrong, and where.
 class TrackFileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -44,7 +44,7 @@ void write_keyframe(const WriteText& write, size_t index, double value) {
 }
 
 /// Writes the keyframes of a curve. A curve needs more than two, because the Synthesizer of MPEG's
-/// reference software makes silence of two.
+/// reference software turns two into silence.
 class HjifCurveWriter {
  public:
   explicit HjifCurveWriter(const WriteText& write) : write_(write) {}
@@ -266,7 +266,7 @@ std::vector<TrackSample> read_hjif(const std::string& text, size_t most_samples,
   const ReadJson root = parse_json(text, why);
   if (root.is_discarded()) throw TrackFileError(why);
   Curves curves(timescale_of(root), most_samples);
-  // A variable, because GCC 14 takes a result for a part of a temporary.
+  // A variable, because with a temporary GCC 14 warns of a dangling reference.
   const std::string whole = "the file";
   const ReadJson& perceptions = array(root, "perceptions", whole);
   bool is_read = false;

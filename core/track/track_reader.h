@@ -44,8 +44,8 @@ class TrackThinner {
   std::array<double, kTrackChannels> sum_{};  ///< finite if the floats are finite
 };
 
-/// Goes through blocks in the order of their times and interpolates linearly between samples; never
-/// extrapolates. Does not allocate. The blocks stay with their owner until they have been read:
+/// Reads blocks in order of time and interpolates linearly between samples; never extrapolates.
+/// Does not allocate. The blocks stay with their owner until they have been read:
 ///
 ///     while (block = oldest block) if (!reader.read(*block, now)) break; else drop the oldest
 ///     result = reader.at(now, block)

@@ -21,7 +21,7 @@ class TrackSampler {
     next_ns_ = (from_ns + kTrackPeriod_ns - 1) / kTrackPeriod_ns * kTrackPeriod_ns;
   }
 
-  /// Times must rise; otherwise returns false and adds nothing.
+  /// Times must increase; otherwise returns false and adds nothing.
   bool add(const TimedWrench& frame) noexcept {
     if (frame.time_ns <= latest_ns_ || !timeline_.push(frame)) return false;
     latest_ns_ = frame.time_ns;
@@ -56,8 +56,8 @@ class TrackSampler {
  private:
   WrenchTimeline timeline_;
   int64_t next_ns_ = 0;
-  int64_t latest_ns_ = INT64_MIN / 2;  ///< of all frames
-  int64_t newest_ns_ = INT64_MIN / 2;  ///< motion of the frames with a picture of their own
+  int64_t latest_ns_ = INT64_MIN / 2;  ///< time of the latest frame
+  int64_t newest_ns_ = INT64_MIN / 2;  ///< motion time of the newest frame with a new picture
   int64_t before_newest_ns_ = INT64_MIN / 2;
   int64_t expired_ns_ = 0;  ///< how long the wrench has been ramping to zero
 };

@@ -13,7 +13,7 @@ namespace {
 
 /// An object in front of a plain background hardly has more than this fraction of the votes.
 constexpr double kMaxObject = 0.2;
-/// If this fraction of all votes is cast, two objects cannot have them all.
+/// If this fraction of all votes is cast, they cannot all be from two objects.
 constexpr double kTexturedFraction = 2 * kMaxObject;
 
 /// A vote that deviates by more than kOutlierSigmas times the noise of a displacement, and by at
@@ -28,8 +28,8 @@ constexpr double kExplained = 0.3;
 /// Two positions are connected if they are less than this apart in x and in y, px: blocks side by
 /// side are kBlock_px apart.
 constexpr double kConnected_px = 1.5 * kBlock_px;
-/// At most this many borders of the picture cut an object, such as a person of whom half is
-/// visible. More cut a part of the scene with a straight edge, such as ground, ice or a wall.
+/// An object, such as a half-visible person, is cut by at most this many borders of the picture. A
+/// part of the scene with a straight edge, such as ground, ice or a wall, is cut by more.
 constexpr int kMaxBorders = 1;
 
 ModelKind next(ModelKind kind, int step) {
@@ -119,11 +119,11 @@ void BackgroundEstimator::remove_connected_to(const Eigen::Vector2d& middle_px,
   positions_px_.erase(positions_px_.begin(), end);
 }
 
-/// Whether the positions_px_, which it empties, are of more than one object in front of a plain
-/// background, or of more than two if the model is above a translation. That is so when kMinVotes
-/// are left after the objects have been removed: circles that cover kMaxObject of the picture, each
-/// around a position with the most others in it; and, if they all move alike, the positions that
-/// are connected to that position.
+/// Whether positions_px_, which this function empties, belong to more than one object in front of a
+/// plain background, or to more than two if the model is more general than a translation. This is
+/// so when kMinVotes are left after the objects have been removed: circles that cover kMaxObject of
+/// the picture, each around a position with the most others in it; and, if all of them move alike,
+/// the positions that are connected to that position.
 bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
                                         const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
@@ -131,7 +131,7 @@ bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
   for (int n = 0; n < objects; ++n) {
     size_t most = 0;
     Eigen::Vector2d middle_px(0, 0);
-    // Of many positions, every second one is taken, and so on, which bounds the time.
+    // Of many positions, only every n-th is tried, to bound the time.
     const size_t step = 1 + positions_px_.size() / kMaxTries;
     for (size_t i = 0; i < positions_px_.size(); i += step) {
       size_t near = 0;
@@ -173,7 +173,7 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
 
 /// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
 /// others may be those of objects in front of a plain background, unless most of the picture is
-/// new. Votes of objects move alike: they are left out, lest they count as several objects.
+/// new. Votes of objects move alike: they are left out, so as not to count as several objects.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMaxObject * voting_) return true;
   if (votes.with_edges || voting_ < kMaxObject * votes.all) return !votes.are_lost;
@@ -213,7 +213,7 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
   return inliers > outliers && cost < kExplained * inliers;
 }
 
-/// Searches a more general model that is better. Returns false when there is none.
+/// Looks for a more general model that is better. Returns false when there is none.
 bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
                                 Scored& current) {
   bool climbed = false;

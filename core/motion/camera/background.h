@@ -45,9 +45,9 @@ struct BackgroundVotes {
 
   /// Votes of all points together, without their weights.
   double sum() const;
-  /// Whether a single object could have cast them all, or they are too few for any model.
+  /// Whether all votes could be from a single object, or are too few for any model.
   bool are_few() const;
-  /// Whether two objects could not have cast them all.
+  /// Whether the votes are too many to be from two objects alone.
   bool are_many() const;
 };
 
@@ -76,7 +76,7 @@ class BackgroundEstimator {
  public:
   BackgroundEstimator();
 
-  /// Returns the background by the votes of one frame, without storing it.
+  /// Estimates the background from the votes of one frame, without storing it.
   Background propose(const BackgroundVotes& votes);
   /// Stores the background for comparison with the next frame.
   const Background& keep(const Background& background) { return background_ = background; }

@@ -13,8 +13,8 @@ namespace {
 
 /// Blocks this close to the border of the picture count as being at the border.
 constexpr int kBorderBlocks = 2;
-/// The smaller eigenvalue of the structure tensor, (grey / px)²: the vote of a block approaches a
-/// full one well above it.
+/// The smaller eigenvalue of the structure tensor at which a block has half of a full vote, (grey /
+/// px)².
 constexpr double kFullTexture = 24;
 /// A block whose own motion leaves this residual has half a vote, grey².
 constexpr double kBadResidual = 60;
@@ -44,7 +44,7 @@ bool may_vote(const MotionBlock& block, bool with_edges) {
   return with_edges ? block.has_texture() && block.weakest_texture() > 0 : block.has_corners();
 }
 
-/// Whether the block rests to half a pixel, the precision of all motion before it is refined.
+/// Whether the block is at rest to half a pixel, the accuracy of all motion before refinement.
 bool is_at_rest(const MotionBlock& block) {
   return std::hypot(block.moved_px.x(), block.moved_px.y()) < kMaxOff_px / 2;
 }

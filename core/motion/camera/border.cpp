@@ -10,18 +10,18 @@
 namespace spidar {
 namespace {
 
-/// Blocks from the border inwards: with fewer, a strip beside the blocks, or a dark edge of the
-/// picture, would decide.
+/// The width of the ring of blocks along the border. With a narrower ring, a strip beside the
+/// blocks, or a dark edge of the picture, would decide.
 constexpr int kRingBlocks = 2;
-/// The largest number of borders that cut an object, one in a corner. If more borders cut an
-/// object, it is a part of the scene.
+/// An object is cut by at most this many borders, those of a corner. If more borders cut an object,
+/// it is a part of the scene.
 constexpr int kMaxOfObject = 2;
 
 /// Standard deviation of | a | − | b | over that of a and b, which are normal and independent: √(2
 /// (1 − 2 / π)).
 constexpr double kOfTwoSizes = 0.853;
-/// Differences of a block, Σ over its pixels, are unequal if they are further apart than so many
-/// standard deviations of noise, and than the changes of an encoder in a wall at rest.
+/// Two differences of a block, Σ over its pixels, are unequal if they are further apart than this
+/// many standard deviations of noise, and than what an encoder changes in a wall at rest.
 constexpr double kUnequalSigmas = 2;
 constexpr double kCoded = static_cast<double>(kRounding_grey) * kBlockArea_px;
 
@@ -44,7 +44,7 @@ int borders_of(uint32_t object, const BlockField& field, const PreviousFrame& pa
   return left + right + above + below;
 }
 
-/// How much the differences of a block must differ to be unequal, Σ over its pixels.
+/// The distance beyond which two differences of a block are unequal, Σ over its pixels.
 double clearly_unequal(const BlockField& field) {
   const double of_noise =
       kBlock_px * kOfTwoSizes * std::sqrt(static_cast<double>(field.noise_grey2()));
@@ -64,13 +64,13 @@ void each_at_border(const BlockField& field, const PreviousFrame& past, Visit&& 
   }
 }
 
-/// A model is a function of the earlier position; one step of iteration finds that.
+/// A model is a function of the earlier position, which one step of iteration finds.
 Eigen::Vector2f motion_of(const BlockField& field, size_t block, const MotionModel& model) {
   const Eigen::Vector2d at_px = field.blocks()[block].centre_px.cast<double>();
   return model.displacement_px(at_px - model.displacement_px(at_px)).cast<float>();
 }
 
-/// A line across a block is the least that shows whether the block stays.
+/// The fewest pixels that show whether a block stays: a line across it.
 constexpr int kMinStaying = kBlock_px;
 
 /// The largest distance, px of the field's picture, between a block's own motion and that of a
@@ -112,8 +112,8 @@ bool border_has_moved(const BlockField& field, const PreviousFrame& past,
     if (if_moved < 0) return;
     const int at_rest = field.difference_if_moved(i, {0, 0});
     ++all;
-    // Interpolation between pixels lessens noise, so that any motion may fit better than rest: the
-    // opposite one must not.
+    // Interpolation between pixels reduces noise, so any motion may fit better than rest: the
+    // opposite motion must not.
     moved += at_rest - if_moved > clearly &&
              field.difference_if_moved(i, -moved_px) - if_moved > clearly;
     rest += if_moved - at_rest > clearly;

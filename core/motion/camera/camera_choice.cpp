@@ -12,14 +12,14 @@ namespace spidar {
 namespace {
 
 /// The fraction of the blocks that must differ less from the earlier picture if they have moved, by
-/// more than kRounding_grey. Measured in made films: where the camera rests, and HEVC or AV1 moves
-/// the noise of the wall with the object, it is 0.26 at most; where the camera pans over hardly
-/// anything, 0.49 at least.
+/// more than kRounding_grey. Measured in synthetic films: where the camera rests, and HEVC or AV1
+/// moves the noise of the wall with the object, it is 0.26 at most; where the camera pans over
+/// hardly anything, 0.49 at least.
 constexpr double kMovedShare = 0.4;
 /// How many times more blocks must support the motion than contradict it.
 constexpr int kMoreOften = 2;
-/// Fewer blocks say nothing: kMovedShare of so many has a standard deviation of 0.08, half of the
-/// distance between the two cases above.
+/// With fewer blocks the share is uncertain: kMovedShare of this many has a standard deviation of
+/// 0.08, half of the distance between the two cases above.
 constexpr int kMinPlain = 40;
 
 }  // namespace
@@ -44,7 +44,7 @@ void PlainParts::find_furthest_picture(const BlockField& field, const MotionMode
     double sum_px = 0;
     for (size_t i = 0; i < blocks.size(); ++i) {
       const Eigen::Vector2d at_px = blocks[i].centre_px.cast<double>() - steps_px_[i];
-      // A model is a function of the earlier position; one step of iteration finds that.
+      // A model is a function of the earlier position, which one step of iteration finds.
       const Eigen::Vector2d from_px = at_px - step.displacement_px(at_px);
       steps_px_[i] += step.displacement_px(from_px);
       sum_px += steps_px_[i].norm();
@@ -135,8 +135,8 @@ void CameraChoice::reset() {
   estimator_.reset();
 }
 
-/// Adds the translation with which those votes agree for which `counts(vote)` is true, unless they
-/// are few or the translation is hardly another one.
+/// Adds the translation that fits the votes for which `counts(vote)` is true as a rival, unless
+/// these are few or it hardly differs from the first choice.
 template <typename Counts>
 void CameraChoice::add_rival(const Background& chosen, const BackgroundVotes& votes,
                              Counts&& counts) {
@@ -192,8 +192,8 @@ const MotionModel* CameraChoice::best_rival(const BlockField& field, const Previ
 }
 
 /// A large object has most of the votes, but little of the border: a rival that explains clearly
-/// more of the border is chosen instead. If most votes are then an object's, they do not teach the
-/// noise.
+/// more of the border is chosen instead. If most votes are then those of an object, the noise is
+/// not learnt from them.
 void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& past,
                                 Background& chosen) {
   const bool was_rival = std::exchange(is_rival_, false);

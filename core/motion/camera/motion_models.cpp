@@ -18,7 +18,7 @@ bool are_on_a_line(const Eigen::Matrix2d& scatter) {
 }
 
 /// Least squares of a model up to the affine one. `weight_of(i)` is called once for each point. The
-/// sums are about `about_px`, which should be in their middle.
+/// sums are relative to `about_px`, which should be the middle of the points.
 template <typename WeightOf>
 std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displacement>& points,
                                       const Eigen::Vector2d& about_px, WeightOf&& weight_of) {
@@ -45,7 +45,7 @@ std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displace
   // Relative to the means the shift cancels; the linear part remains.
   scatter -= weight * at_px * at_px.transpose();
   cross -= weight * moved_px * at_px.transpose();
-  // All are in one position, but for the rounding of their mean: 1e-10 px at 1e4 px.
+  // All points are in one position, but for the rounding of their mean: 1e-10 px at 1e4 px.
   constexpr double kOnePlace_px = 1e-6;
   if (!(scatter.trace() > weight * kOnePlace_px * kOnePlace_px)) return std::nullopt;
   if (kind == ModelKind::kSimilarity) {
@@ -63,7 +63,7 @@ std::optional<MotionModel> fit_linear(ModelKind kind, const std::vector<Displace
 /// H s = g for the Gauss–Newton step s of the eight parameters of a homography, lengths in
 /// kUnit_px. In x only the first three of them act, in y the next three, with the same derivatives
 /// a = (x, y, 1) / divisor, and the last two act in both, with −to · (x, y) / divisor. Terms that
-/// are zero or already there are not added up.
+/// are zero or equal to others are not added up.
 class HomographySums {
  public:
   static constexpr double kUnit_px = 256;  ///< makes the normal matrix well scaled

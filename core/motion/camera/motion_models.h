@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Models of how a plane, or something like a plane, moves from one frame to the next, and their
-/// fit to displacements some of which are outliers.
+/// Models of the motion of a scene that is nearly a plane from one frame to the next, and their fit
+/// to displacements some of which are outliers.
 #pragma once
 
 #include <algorithm>
@@ -24,12 +24,12 @@ const char* to_string(ModelKind kind);
 
 /// A displacement from one frame to the next, relative to the centre of the frame.
 struct Displacement {
-  /// Its position in the first frame, from the frame's centre; x right, y down.
+  /// The position in the first frame, relative to its centre; x right, y down.
   Eigen::Vector2d at_px;
   Eigen::Vector2d moved_px;
 };
 
-/// The most displacements of a frame, which bounds its cost.
+/// The maximum number of displacements in a frame, which bounds the computing time.
 constexpr size_t kMaxDisplacements = 512;
 
 /// p ↦ (p + A p + t) / (1 + h·p), p from the centre of the frame. Parameters that a kind does not
@@ -100,8 +100,8 @@ double robust_cost(const MotionModel& model, const WeightedDisplacements& eviden
 
 /// A model with a small robust_cost(), found in a bounded number of steps: the best of the
 /// similarities through pairs of points (MSAC: Torr and Zisserman: MLESAC, 2000) and the `known`
-/// models. Deviations of several px count as less than outliers here, which fit_robustly() narrows.
-/// The same evidence gives the same model, bit for bit.
+/// models. Deviations of several px do not count as outliers yet; fit_robustly() narrows this
+/// tolerance. The same evidence gives the same model, bit for bit.
 MotionModel find_start(const WeightedDisplacements& evidence,
                        const std::vector<MotionModel>& known);
 

@@ -12,9 +12,9 @@
 namespace spidar {
 namespace {
 
-/// The largest fraction of the picture on one side, to the nearest line: that of a film of 4:3 in a
-/// picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front of a still
-/// scene without noise would count as a film in a frame.
+/// The largest bar on one side, as a fraction of the picture, to the nearest line: that of a film
+/// of 4:3 in a picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front
+/// of a still scene without noise would count as a film in a frame.
 constexpr double kMaxOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
 /// The fraction of the positions along the edge of a film that change while a bar beside them does
@@ -46,7 +46,7 @@ struct Side {
     return true;
   }
 
-  /// How many lines stand still, from the side on; 0 when they are more than a bar.
+  /// How many lines stand still, from this side inwards; 0 if they are more than a bar can have.
   int standing() const {
     const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
@@ -68,13 +68,13 @@ struct Side {
 };
 
 /// Saturated white and black parts of an object have no noise either, so a block that has moved
-/// needs a fraction halfway to all of them.
+/// needs a larger fraction of equal pixels: halfway between kExactOfGraphics and 1.
 constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
 /// The search can find a motion of up to kMaxOff_px for a block with static graphics, because some
 /// of its pixels are of the film. Blocks that moved by less than half of that, px of the field's
 /// picture, count as not moved.
 constexpr float kInPlace_px = kMaxOff_px / 2;
-/// A block that has moved, but in which so many pixels stay in place, shows graphics and the film
+/// A block that has moved, but in which this many pixels stay in place, shows graphics and the film
 /// behind them together, and its motion is neither: a tenth of the block, more than a line across.
 constexpr int kMixedPixels = 24;
 /// A dark or still part of a picture has less noise than the rest. The noise around a block is that
@@ -166,8 +166,8 @@ std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const
   return median(nearby_.begin(), nearby_.end());
 }
 
-/// Whether neither noise nor the block's motion explains its pixels. Noise explains twice its
-/// standard deviation.
+/// Whether neither noise, up to twice its standard deviation, nor the block's motion explains its
+/// pixels.
 bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float moved_px) {
   const auto most = static_cast<float>(kMaxCost);
   const float residual = field.blocks()[block.index].residual;

@@ -13,9 +13,9 @@
 
 namespace spidar {
 
-/// How many rows and columns of blocks at each side of the picture do not show the film: letterbox
-/// bars, a still frame around the film, or both, with the blocks that their edge crosses. The
-/// border of the film counts as the picture's border.
+/// Finds how many rows and columns of blocks at each side of the picture do not show the film:
+/// letterbox bars, a still frame around the film, or both, with the blocks that their edge crosses.
+/// The border of the film counts as the picture's border.
 ///
 /// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
 /// whole line changes: the edge of a film is straight, that of an object in front of a wall at rest
@@ -96,7 +96,7 @@ class BurnedIn {
 
   /// Whether a block shows burned-in graphics; false for blocks not examined in the latest pairs.
   bool contains(size_t index) const { return index < contained_.size() && contained_[index] != 0; }
-  /// The same of all blocks, 1 or 0; empty before the first pair.
+  /// contains() for all blocks, 1 or 0; empty before the first pair.
   const std::vector<uint8_t>& held() const { return contained_; }
 
   /// Whether the graphics in a block, or next to it, have lasted. They cover the film, and the

@@ -42,23 +42,23 @@ constexpr float kMinDistance2 = 13;
 /// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
 /// is right to kMaxOff_px. Nearer, the differences of pixels do not separate them.
 constexpr float kDifferentPixels_px = 2 * kMaxOff_px;
-/// How much larger the covariance of the parallax counts for a slow block. Depths have no normal
+/// The factor on the covariance of the parallax for a slow block. Depths have no normal
 /// distribution: much of a scene is further from its model than the middle of it suggests.
 constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise the
-/// object would stop as soon as it falls below the threshold, and a trunk would leave its motion to
-/// the faster limbs.
+/// object would stop as soon as it falls below the threshold, and only the faster limbs of a body
+/// would remain.
 constexpr float kSlower = 0.6f;
-/// How much worse the background's motion must fit in the picture itself: kRounding_grey, a
-/// fraction of the picture's noise, and a fraction of the difference that the block's own motion
-/// leaves.
+/// How much worse the background's motion must explain the pixels than the block's own motion: by
+/// kRounding_grey, a fraction of the picture's noise, and a fraction of the difference that the
+/// block's own motion leaves.
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseFraction = 0.15f;
-/// The same for a block without texture where no object is known, on the mean: noise and coding may
-/// be in both of the differences.
+/// The same, as a mean per pixel, for a block without texture where no object is known: noise and
+/// coding may be in both of the differences.
 constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 
-/// A block that stands out moves if this many around it do: errors seldom lie side by side.
+/// A block that stands out moves if this many around it stand out, too: errors are seldom adjacent.
 constexpr int kMinNeighbours = 3;
 
 /// How much a block must have stood out in the last frames, 0 … 1, see remember_what_stood_out():
@@ -90,7 +90,7 @@ std::optional<int> worse_with_background(const BlockField& field, size_t index,
   return with_background - field.blocks()[index].difference;
 }
 
-/// How much worse that must be if a block moves fast.
+/// The least worse_with_background() of a fast block that moves by itself.
 float least_worse(const BlockField& field, const MotionBlock& block) {
   return kBlockArea_px * (kRounding_grey + kWorseByNoise * std::sqrt(field.noise_grey2())) +
          kWorseFraction * static_cast<float>(block.difference);
@@ -99,7 +99,7 @@ float least_worse(const BlockField& field, const MotionBlock& block) {
 /// Whether the pixels of a block separate its motion from the background's without any texture.
 bool pixels_tell(const BlockField& field, size_t index, const RelativeBlock& relative,
                  bool expected) {
-  // Both are right to half a pixel.
+  // Both motions are accurate to half a pixel.
   if (std::hypot(relative.moved_px.x(), relative.moved_px.y()) < kMaxOff_px / 2) return false;
   const float least =
       expected ? least_worse(field, field.blocks()[index]) : kFarWorse_grey * kBlockArea_px;
@@ -247,8 +247,8 @@ void MovingBlocks::judge_with_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// Updates how much each block has stood out recently in the same way: glitter stands out in
-/// another way each time. A small object may have moved on to the next block.
+/// Updates how often each block has recently stood out with the same motion: that of glitter
+/// changes each time. A small object may have moved on to the next block.
 void MovingBlocks::remember_what_stood_out(const BlockField& field) {
   const size_t n = stands_out_.size();
   stood_out_before_.swap(stood_out_);

@@ -21,7 +21,7 @@ namespace spidar {
 class Parallax {
  public:
   /// Takes the motion of the blocks of the scene relative to the background, px. Fewer than half of
-  /// them may move by themselves. The order of `moved_px` stays.
+  /// them may move by themselves.
   void measure(const std::vector<Eigen::Vector2f>& moved_px);
 
   /// In px²; zero before measure(), and after a measure() of no blocks.

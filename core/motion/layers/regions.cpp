@@ -29,7 +29,7 @@ constexpr double kBorder = 1.5;
 constexpr double kNoiseSigmas = 8;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// A region with more blocks beside graphics is their edge, mixed with the film behind it.
+/// A region with a larger fraction of blocks at graphics is their edge, mixed with the film behind.
 constexpr double kMixedFraction = 0.5;
 
 }  // namespace

@@ -23,7 +23,7 @@ struct Region {
   int border_blocks = 0;
   /// Number of blocks that burned-in graphics cover, or that have such a neighbour.
   int graphics_blocks = 0;
-  bool lasts = false;  ///< one of its blocks does, see RelativeBlock
+  bool lasts = false;  ///< whether one of its blocks lasts, see RelativeBlock
   Eigen::Vector2d position_px = Eigen::Vector2d::Zero();  ///< of its middle
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero();       ///< upper left corner of its box
   Eigen::Vector2d high_px = Eigen::Vector2d::Zero();      ///< lower right
@@ -64,9 +64,9 @@ class RegionFinder {
 /// The motion of one region over its last frames.
 ///
 /// A part of the scene that is nearer than the background also moves against it when the camera
-/// travels. But that part moves with the background, and more so, the faster the camera is: its
-/// motion on the screen is larger than its motion relative to the background. An object that a
-/// camera follows is nearer to rest on the screen than to the background.
+/// travels. But that part moves in the direction of the background, and further: its motion on the
+/// screen is larger than its motion relative to the background. An object that a camera follows is
+/// nearer to rest on the screen than to the background.
 class LayerEvidence {
  public:
   /// Adds a frame, in px of the field's picture: the motion relative to the background, the motion

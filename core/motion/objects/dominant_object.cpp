@@ -10,8 +10,8 @@ namespace {
 /// Memory for the objects of a frame, see ObjectTracker::kMaxObjects.
 constexpr size_t kMaxRivals = 16;
 
-/// The rate at which a reason grows while an object has been followed for `followed_s`, see the
-/// class.
+/// The rate at which the reason for a rival grows when the present object has been followed for
+/// `followed_s`, see DominantObject.
 double growth(double prominence, double of_followed, double followed_s) {
   if (prominence == 0) return -1;
   const double settled = std::min(1.0, followed_s / DominantObject::kSettles_s);
@@ -22,7 +22,7 @@ double growth(double prominence, double of_followed, double followed_s) {
 /// The fraction of the smaller of two boxes that the other covers if both are of one object.
 constexpr double kSamePlace = 0.5;
 
-/// Whether an object is where an invisible one would be: it is a part of the same object.
+/// Whether an object is where an invisible one would be, and so is a part of the same object.
 bool takes_place(const MovingObject& object, const MovingObject& hidden) {
   return area_px2(object.box_px().intersection(hidden.box_px())) >
          kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
@@ -70,7 +70,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
     const Eigen::Vector2d reach_px = Eigen::Vector2d::Constant(last_speed_px_s_ * interval_s);
     last_box_px_ = {last_box_px_.min() - reach_px, last_box_px_.max() + reach_px};
   }
-  // The frame nearest to that time counts.
+  // A rival takes over in the frame nearest to the time at which its reason reaches kReason_s.
   const double enough_s = std::max(0.0, kReason_s - interval_s / 2);
   const double least_s = in_sight ? -kReason_s : 0;
   const MovingObject* best = nullptr;

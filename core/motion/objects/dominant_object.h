@@ -9,9 +9,9 @@
 
 namespace spidar {
 
-/// The object that the hand follows. Stays with an object until there has been reason enough to
-/// leave it, so that the force does not jump between similar objects, nor to one that stands out in
-/// a few frames only.
+/// Chooses the object that the hand follows. Keeps an object until there is reason enough to leave
+/// it, so that the force does not jump between similar objects, nor to one that stands out in a few
+/// frames only.
 ///
 /// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
 /// prominence of the rival, f that of the followed object, and c grows from 1 to kClearly in the

@@ -40,13 +40,13 @@ struct MovingObject {
   /// In 95 % of the frames in which the object is visible, relative_px_s differs from the true
   /// velocity by less than this; 0: unknown.
   double error_px_s = 0;
-  /// Whether it moved outwards at the border of the picture when last seen: it does not come back.
+  /// Whether it was moving out of the picture when last seen: it does not come back.
   bool has_left = false;
   double area_px2 = 0;    ///< of its blocks together
   double prominence = 0;  ///< how likely a viewer watches it, see salience()
 };
 
-/// The object with this id; null when it is not among them.
+/// Returns the object with this id, or null.
 inline const MovingObject* find_object(const std::vector<MovingObject>& objects, uint32_t id) {
   const auto found = std::find_if(objects.begin(), objects.end(),
                                   [id](const MovingObject& object) { return object.id == id; });

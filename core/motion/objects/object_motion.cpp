@@ -9,7 +9,7 @@
 namespace spidar {
 namespace {
 
-/// Windows replace the blocks if so many move alike: two more than determine a similarity.
+/// Windows replace the blocks if this many move alike: two more than determine a similarity.
 constexpr size_t kMinWindows = 4;
 
 }  // namespace
@@ -51,8 +51,8 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
   return collected_.points.size() >= kMinWindows;
 }
 
-/// Chooses a similarity if it is better than a translation by its price in the GRIC, and again by
-/// the same amount so that the choice does not flicker.
+/// Chooses a similarity if its cost is below that of a translation by twice the difference of their
+/// penalties in the GRIC: twice, so that the choice does not flicker.
 void ObjectMeter::climb(MotionModel& motion) {
   if (motion.kind == ModelKind::kSimilarity) return;
   const auto similarity = fit_robustly(ModelKind::kSimilarity, motion, collected_);

@@ -35,7 +35,7 @@ struct ObjectMotion {
 };
 
 /// Measures the motion of one object. Blocks give the motion; the windows on the object, where
-/// there are enough, give it to a fraction of a pixel. Rotation and growth are used when the GRIC
+/// there are enough, give it to a fraction of a pixel. Rotation and growth are included if the GRIC
 /// prefers them.
 class ObjectMeter {
  public:

@@ -167,8 +167,8 @@ ObjectMotion ObjectTracker::measure(Track& track, const FieldInFrame& frame) {
   return found;
 }
 
-/// Chooses the next object that may be felt after the last one whose rotation was measured: keys
-/// rise.
+/// Chooses the objects whose rotation is measured: the felt one and, in turn, the one with the next
+/// higher key.
 void ObjectTracker::choose_turned(uint32_t felt) {
   felt_key_ = 0;
   uint32_t first = 0, next = 0;
@@ -184,8 +184,8 @@ void ObjectTracker::choose_turned(uint32_t felt) {
   turned_key_ = next != 0 ? next : first;
 }
 
-/// Measures rotation and growth, unless the object is not felt: it is not born yet, or is a layer
-/// of the scene.
+/// Measures rotation and growth, unless the object cannot be felt: it is not born yet, or is a
+/// layer of the scene.
 void ObjectTracker::turn(Track& track, const ObjectMotion& found, const FieldInFrame& frame) {
   if (!track.is_born() || track.is_layer) return track.turn_unseen(frame.interval_s);
   if (track.key != felt_key_ && track.key != turned_key_) return;
@@ -231,7 +231,7 @@ void ObjectTracker::observe(Track& track, const FieldInFrame& frame) {
                                             : track.region.relative_px / frame.interval_s;
   const bool is_new = track.blocks_seen == 0;
   if (is_new) track.velocity_px_s = velocity_px_s;
-  // Smoothing removes motion that an error explains, which delays the rest by a frame or two.
+  // Smoothing removes motion within the error, and delays other motion by a frame or two.
   const double error_px = bound_.own_px(track.key, found, evidence_in(frame));
   const double news_px = (velocity_px_s - track.velocity_px_s).norm() * frame.interval_s;
   const double both_px2 = news_px * news_px + error_px * error_px;
@@ -314,7 +314,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   relative_ = &moving_.find(field, background, expected_);
   camera_moves_ = background.model.kind != ModelKind::kStill;
 
-  if (moving_.burned_in().margins().have_changed()) {  // and with them what touches the border
+  if (moving_.burned_in().margins().have_changed()) {  // this changes what touches the border
     for (Track& track : tracks_) track.is_proven = false;
   }
   claim(frame);

@@ -41,7 +41,7 @@ struct Track {
   };
 
   /// Total number of blocks with which an object must have been seen to exist: a small one must be
-  /// seen more often. A single frame counts for less, because noise does not move alike twice.
+  /// seen more often. A single frame never suffices, because noise does not move alike twice.
   static constexpr int kBornAfterBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
@@ -176,13 +176,12 @@ class ObjectTracker {
   /// `next_id`: trackers that share it never give two objects the same id.
   explicit ObjectTracker(std::shared_ptr<uint32_t> next_id = std::make_shared<uint32_t>(1));
 
-  /// The result is valid until the next call and ordered by id. Ids count the objects that were in
-  /// a result, so that their number identifies the next one. `background` is in pixels of the
-  /// field's picture.
+  /// The result is valid until the next call and ordered by id. Ids number the objects in the order
+  /// in which they first were in a result. `background` is in pixels of the field's picture.
   ///
-  /// How an object rotates and grows is measured in each frame for the one that is `felt`, an id or
-  /// 0, and for one of the others, by turns: the values of the rest stay. This bounds the time for
-  /// a frame.
+  /// In each frame, rotation and growth are measured for the object with the id `felt` (0: none)
+  /// and for one of the others, in turn; the rest keep their values. This bounds the time for a
+  /// frame.
   const std::vector<MovingObject>& update(const FieldInFrame& frame, const Background& background,
                                           uint32_t felt = 0);
 
@@ -192,7 +191,7 @@ class ObjectTracker {
     return {moving_.foreground(), burned_in.held(), owners_, burned_in.margins().columns(),
             burned_in.margins().rows()};
   }
-  /// The number of the object to which each block belongs in the last frame; 0 for none.
+  /// The key of the object to which each block belongs in the last frame; 0: none.
   const std::vector<uint32_t>& owners() const { return owners_; }
 
   bool moves(size_t block) const { return (*relative_)[block].moves; }

@@ -15,21 +15,21 @@ using Eigen::Vector2d;
 using Eigen::Vector2f;
 
 /// How far an edge may be from its predicted place in each step, px of the field's picture: the
-/// start is right to about a pixel, and a thing that bends a little to a quarter of one.
+/// start is accurate to about a pixel, and that of an object that bends a little to a quarter.
 constexpr float kEdge_px[] = {1, 0.5F, 0.25F, 0.25F};
 constexpr size_t kLastStep = std::size(kEdge_px) - 1;
-/// A later step that is shorter than this, px, is followed by the last one, which then begins as
-/// near as after the omitted step.
+/// After a later step that is shorter than this, px, only the last one follows: the omitted steps
+/// would hardly bring its start nearer.
 constexpr float kSettled_px = kEdge_px[kLastStep] / 2;
 /// A slope of less than this many standard deviations of noise does not count.
 constexpr float kSlopeSigmas = 3;
 /// Standard error of the direction of a slope, rad: of central differences on the rim of a disc
 /// that is one pixel soft.
 constexpr float kSlopeError = 0.14F;
-/// With less than this fraction of the apparent information about a parameter, errors of the slopes
-/// determine it: the rim of a plain disc does not show how the disc rotates.
+/// If less than this fraction of the apparent information about a parameter is real, errors of the
+/// slopes determine it: the rim of a plain disc does not show how the disc rotates.
 constexpr double kMinReliable = 0.75;
-/// The fraction of the pixels of a rigid thing that are within two standard deviations.
+/// The fraction of the pixels of a rigid object that are within two standard deviations.
 constexpr double kRigid = 0.95;
 /// How far pixels that a similarity does not explain may be from their predicted place, px of the
 /// field's picture: half of the error of a block's motion.
@@ -57,7 +57,7 @@ struct Sample {
   }
 };
 
-/// The grey level of a pixel as interpolation would blur it where it was.
+/// The grey level of a pixel, blurred as interpolation blurs it at its former position.
 template <typename Pixel>
 float now_blurred(const Pixel& pixel, const Sample& before) {
   const Vector2f blur = before.fraction.cwiseProduct(Vector2f::Ones() - before.fraction);
@@ -97,9 +97,9 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
   return A;
 }
 
-/// Keeps at most `most` of the values, evenly: those for whose index the fractional part of its
-/// multiple of the golden ratio is below the share that stays. Such parts fill an interval evenly
-/// and have no period, while every n-th pixel is in step with rows and with patterns n wide.
+/// Keeps at most `most` of the values, spread evenly: those whose index times the golden ratio has
+/// a fractional part below the share that is kept. Such parts fill an interval evenly and have no
+/// period, while every n-th pixel is in step with rows and with patterns n wide.
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
   if (values.size() <= most) return;
@@ -244,7 +244,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   collect_blocks(key, evidence);
   if (blocks_.empty()) return turn;
   collect_slopes(evidence.field);
-  // A displacement forth of a · (position before) is one back of a / (1 + a) · (position now).
+  // A forward displacement a · (position before) is a backward one a / (1 + a) · (position now).
   const MotionModel& background = evidence.background.model;
   const Vector2d from_px = middle_px_ - region.relative_px - region.background_px;
   const std::complex<double> behind = similarity_in(linear_at(background, from_px));
@@ -290,8 +290,8 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   const std::complex<double> found_back = std::complex<double>(motion[2], motion[3]) / reach_px;
   const std::complex<double> forth = found_back / (1.0 - found_back) - behind;
   const Eigen::Vector4d of_blocks_px2 = between_px2(all, covariance * all.gradient);
-  // The variance is that of the noise, or the disagreement of the blocks. Nothing is known where
-  // errors of the slopes determine the parameter.
+  // The variance is that of the noise or of the disagreeing blocks, whichever is larger. Nothing is
+  // known where errors of the slopes determine the parameter.
   const auto estimate = [&](double value, int parameter) {
     const float of_noise_px2 = covariance(parameter, parameter);
     const double reliable = 1 - static_cast<double>(all.noise * of_noise_px2);

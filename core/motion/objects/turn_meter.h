@@ -62,7 +62,7 @@ class TurnMeter {
     float grey;
     Eigen::Vector2f slope;  ///< grey levels a pixel
     Eigen::Vector2f bend;   ///< half of the second differences
-    float behind2;          ///< square of the difference if it is the background's, grey²
+    float behind2;          ///< squared difference if it moves with the background, grey²
   };
   /// Sums over the pixels of a block, with r = now − before and J = ∂r / ∂parameters.
   struct Sums {
@@ -97,8 +97,8 @@ class TurnMeter {
   float noise_grey2_ = 1;
 };
 
-/// A rate of rotation or growth, to which each frame contributes as its error allows. The rate
-/// rises from 0 as it exceeds the bound of its error, and fades without evidence.
+/// A smoothed rate of rotation or growth: frames with a small error contribute more. The felt rate
+/// rises from 0 where it exceeds its error bound, and fades without evidence.
 class SteadyRate {
  public:
   /// Time constant with which the rate fades.
