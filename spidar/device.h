@@ -23,7 +23,7 @@ enum class LinkFault : uint8_t {
   kBabble,       ///< more bytes than expected
   kBusError,     ///< broken packets on the wire; often the first fault when a board is unplugged
   kGone,         ///< the device is unplugged
-  kWrongReply,   ///< of the right length, but not the expected answer
+  kWrongReply,   ///< an answer of the right length, but not the expected one
   kWrongEcho,    ///< the board echoes D/A values that were not sent
   kCounterJump,  ///< a counter changed by more than a hand can cause
   kUnguarded,    ///< the guardian has ended, for example because it was killed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Why a device cannot be opened, and where in the source that was found.
+/// Why a device cannot be opened, and the line of the source that reports it.
 #pragma once
 
 #include <cerrno>
@@ -51,7 +51,7 @@ inline DeviceErrorCode error_code_of(int error) noexcept {
   }
 }
 
-/// A device cannot be opened. what() says which, why, and what to do.
+/// Thrown when a device cannot be opened. what() says which one, why, and what to do.
 class DeviceError : public std::runtime_error {
  public:
   explicit DeviceError(const std::string& what, DeviceErrorCode code = DeviceErrorCode::kFailed,

@@ -113,7 +113,7 @@ int make_locked(const std::string& path, const fs::path& target) {
       if (!remove_left(path, target)) return -1;
       continue;
     }
-    // Another process may take it for an abandoned one, before it is locked, and remove it.
+    // Before the lock, another process may take the file for an abandoned one and remove it.
     uninterrupted([&] { return flock(descriptor, LOCK_EX); });
     if (is_at(descriptor, path)) return descriptor;
     close(descriptor);
@@ -149,7 +149,7 @@ fs::path place_of_output(const fs::path& path) {
 void keep_permissions(int file, const std::string& path) {
   struct stat before {};
   if (stat(path.c_str(), &before) != 0) return;
-  // The mode comes last: a new owner removes bits, and a group that may not be given gets none.
+  // The mode comes last: a new owner clears bits, and a group that was not set gets no access.
   const bool has_group = fchown(file, static_cast<uid_t>(-1), before.st_gid) == 0;
   [[maybe_unused]] const int owner = fchown(file, before.st_uid, static_cast<gid_t>(-1));
   fchmod(file, before.st_mode & (has_group ? 0777U : 0707U));
@@ -177,7 +177,7 @@ void await_signal(const sigset_t& signals) {
   pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
   while (sem_wait(&has_received) != 0) {  // interrupted, by the signal itself
   }
-  registry().mutex.lock();  // for ever: no more part files are made
+  registry().mutex.lock();  // forever: no more part files are made
   for (const std::string& path : registry().paths) unlink(path.c_str());
   std::signal(received_signal, SIG_DFL);
   kill(getpid(), received_signal);
@@ -321,7 +321,7 @@ void remove_part_files_on_signals() {
   sem_init(&has_received, 0, 0);
   sigset_t signals;
   sigemptyset(&signals);
-  // If both limits of CPU time were equal, only SIGKILL would come.
+  // If both limits of CPU time were equal, only SIGKILL would be sent.
   rlimit cpu{};
   if (getrlimit(RLIMIT_CPU, &cpu) == 0 && cpu.rlim_cur == cpu.rlim_max && cpu.rlim_cur > 1 &&
       cpu.rlim_cur != RLIM_INFINITY) {

@@ -9,9 +9,9 @@
 
 namespace spidar {
 
-/// Notes in an extended attribute of the open file, whose content is complete, that `maker` has
-/// written it, with its size and the time of its last change. Where the file system keeps no
-/// attributes (FAT, NFS before 4.2), nothing is noted.
+/// Records in an extended attribute of the open and complete file that `maker` has written it, with
+/// its size and the time of its last change. Records nothing where the file system has no
+/// attributes (FAT, NFS before 4.2).
 void mark_written(int file, const std::string& maker);
 
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
@@ -19,7 +19,7 @@ bool is_as_written(const std::string& path, const std::string& maker);
 
 /// An output file that appears under its name only when it is complete. Until then it is a part
 /// file in the folder of its target, named `.part-`, a number that follows from the name of the
-/// target, and the same extension: the name fits however long that of a film is. The part file has
+/// target, and the same extension, so that the name is never too long. The part file has
 /// one owner at a time, among all threads and processes, because it is locked for as long as the
 /// object exists. The leftover of a killed process is removed, never written into, and a link of
 /// that name is not followed: nobody else has the file open. The destructor removes the part file.
@@ -29,8 +29,8 @@ class PartFile {
  public:
   /// Which existing files are replaced.
   struct Replaces {
-    bool any = false;      ///< every regular file; without a name of the user, all of `maker`
-    std::string maker;     ///< files that this command has written and nobody changed; empty: none
+    bool any = false;      ///< every regular file; unless `is_named`, only files by `maker`
+    std::string maker;     ///< command whose files are replaced if unchanged; empty: none
     bool is_named = true;  ///< whether the user has given the name of the target
     bool is_read =
         false;  ///< also a file that this program reads (note_read()), otherwise an error
@@ -39,30 +39,30 @@ class PartFile {
   /// Makes an empty part file. Throws std::runtime_error when that is not possible, when another
   /// thread or process is writing the same file, or when the target exists and is not replaced.
   PartFile(const std::filesystem::path& target, const Replaces& replaces);
-  /// The part file of `target` that another process owns, which has given this one the descriptor.
+  /// The part file of `target` of another process, which has passed the descriptor to this one.
   PartFile(const std::filesystem::path& target, int descriptor);
   ~PartFile();
   PartFile(const PartFile&) = delete;
   PartFile& operator=(const PartFile&) = delete;
 
-  /// Null when another thread or process is writing the same file. Only publish() checks whether
-  /// there is a file that is not replaced.
+  /// Returns null when another thread or process is writing the same file. Only publish() checks
+  /// whether there is a file that must not be replaced.
   static std::unique_ptr<PartFile> claim(const std::filesystem::path& target,
                                          const Replaces& replaces);
 
   const std::string& path() const { return path_; }
-  /// The name that it will have, for messages.
+  /// The final name of the file, for messages.
   const std::string& target() const { return target_; }
   int descriptor() const { return descriptor_; }
 
-  /// Appends to the text that was written in this way. Throws std::runtime_error when that fails.
+  /// Appends to what earlier calls have written. Throws std::runtime_error when that fails.
   void write(const std::string& content);
 
   /// Throws std::runtime_error when path() has become another file, or its folder has gone.
   void check_in_place() const;
 
-  /// Gives the file its name; afterwards there is no part file. Throws std::runtime_error if there
-  /// is now a file that is not replaced. Returns a remark for the user; usually empty.
+  /// Renames the part file to the target. Throws std::runtime_error if there is now a file that
+  /// must not be replaced. Returns a remark for the user; usually empty.
   std::string publish();
 
  private:

@@ -22,14 +22,14 @@ std::string as_text(const T& value) {
 
 /// Returns the text with a question mark for each control character, which a terminal would obey,
 /// for each character that reverses the direction of writing, and for each byte that is not UTF-8,
-/// which neither JSON nor GStreamer takes. Use this for names, serial numbers and the like that
+/// which neither JSON nor GStreamer accepts. Use this for names, serial numbers and the like that
 /// come from a device.
 std::string printable(std::string_view text);
 
-/// At most 256 bytes of a file, as the kernel describes devices in sysfs; empty if it cannot be
+/// The first 256 bytes of a file, which hold a description in sysfs; empty if the file cannot be
 /// read.
 std::string beginning_of(const std::string& path);
-/// Its first line, printable().
+/// The first line of beginning_of(path), printable().
 std::string first_line(const std::string& path);
 
 /// Returns "; did you mean max-force?" for a word that is nearly one of `known`; else empty.

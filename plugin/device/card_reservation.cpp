@@ -12,13 +12,13 @@ namespace {
 
 constexpr const char* kInterface = "org.freedesktop.ReserveDevice1";
 constexpr const char* kBus = "org.freedesktop.DBus";
-/// By the protocol, a card with the highest priority is not given away.
+/// By the protocol, an owner with the highest priority need not release the card.
 constexpr gint32 kPriority = std::numeric_limits<gint32>::max();
 
 /// Flags and results of RequestName in the D-Bus specification.
 constexpr guint32 kReplace = 2, kDoNotQueue = 4, kIsOwner = 1;
 
-/// Returns an empty text where there is no bus, because GLib would start one.
+/// Returns an empty string if there is no bus. GLib's own look-up would start one.
 std::string bus_address() {
   const gchar* const address = secure_getenv("DBUS_SESSION_BUS_ADDRESS");
   if (address) return address;
@@ -26,9 +26,9 @@ std::string bus_address() {
   return g_file_test(socket, G_FILE_TEST_EXISTS) ? std::string("unix:path=") + socket : "";
 }
 
-/// Returns null, with the reason in `error`, when the bus has not answered in `limit_ms`: a bus may
-/// accept a connection and never answer. The call has a context of its own, because there may be no
-/// main loop, or this may be its thread.
+/// Returns null, with the reason in `error`, if the bus does not answer in `limit_ms`: a bus may
+/// accept a connection and never answer. Uses its own main context, because there may be no main
+/// loop, or the caller may be in the thread of that loop.
 Ref<GDBusConnection> connect(const std::string& address, int limit_ms, std::string& error) {
   struct Answer {
     bool is_there = false;

@@ -10,16 +10,16 @@
 
 namespace spidar {
 
-/// Asks a sound server for a card, which PulseAudio, or the session manager of PipeWire, leaves to
-/// this process as long as this object lives. Both follow org.freedesktop.ReserveDevice1 on the
-/// session bus. No main loop is needed.
+/// Reserves a sound card: PulseAudio, or the session manager of PipeWire, leaves the card to this
+/// process while this object exists. Both implement org.freedesktop.ReserveDevice1 on the session
+/// bus. No main loop is needed.
 class CardReservation {
  public:
-  /// The time that the bus and the owner of the card have in all to give the card away.
+  /// The time limit for the whole reservation, in which the bus and the owner must answer.
   static constexpr int kPatience_ms = 3000;
 
-  /// `card` is ALSA's number. Returns null, with the reason in `refused`, if the owner does not
-  /// give the card away; null without a reason where there is no session bus, and so no owner.
+  /// `card` is its ALSA number. Returns null, with the reason in `refused`, if the owner does not
+  /// release the card; null without a reason if there is no session bus, and hence no owner.
   static std::unique_ptr<CardReservation> take(int card, std::string& refused);
   ~CardReservation();
   CardReservation(const CardReservation&) = delete;

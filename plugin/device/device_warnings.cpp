@@ -21,13 +21,13 @@
 namespace spidar {
 namespace {
 
-/// A hand that swings a slack string loses the pose for a moment, which is not reported.
+/// A shorter loss of the pose is not reported: a hand that swings a slack string causes it.
 constexpr int64_t kPoseLost_ns = 500'000'000;
 
-/// A force that comes so much later is not felt as part of its picture: people notice a delay from
-/// 45 ms on, as a mean (docs/feeling.md).
+/// A force with a longer delay does not feel like a part of its picture: on average, people notice
+/// a delay from 45 ms on (docs/feeling.md).
 constexpr int64_t kPointless_ns = 40'000'000;
-constexpr int64_t kLasting_ns = 2'000'000'000;  ///< a moment without frames is not reported
+constexpr int64_t kLasting_ns = 2'000'000'000;  ///< a shorter delay is not reported
 
 /// Returns why the device was lost, with the last fault of the link, if there is a link.
 std::string why_lost(const HapticSession& session) {
@@ -139,8 +139,8 @@ void DeviceWarnings::check_opened(const HapticOutput& output) const {
                         ("A file that can be read and written there is enough."));
   }
   const GripAbilities can = grip.abilities();
-  // Most devices have no torque or no force towards the viewer, as their pages say. What a
-  // force-feedback device can do, and how strong it is, is not known before.
+  // Most devices have no torque or no force towards the viewer, as their pages say. The abilities
+  // and the strength of a force-feedback device are known only once it is open.
   const bool force_feedback = grip.name().compare(0, 2, "ff") == 0;
   const bool whole = can.force[0] && can.force[1] && can.direction;
   if (chosen.empty() && whole && is_simulated(grip.name())) return;

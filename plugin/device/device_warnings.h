@@ -19,11 +19,11 @@ enum class OnDeviceError { kWarn, kError };
 void device_message_fields(const char* state, const std::string& device, const std::string& why,
                            FieldSink& to);
 
-/// Reports on the bus when something is wrong with an element's device, each warning once per
-/// stream. Streaming thread, and start() before it. Without a device, sessions are null.
+/// Posts a warning on the bus for each problem of an element's device, each once per stream. Use it
+/// in the streaming thread; call start() before. Without a device, sessions are null.
 class DeviceWarnings {
  public:
-  /// `what` continues without the device: "The video".
+  /// `what` is the subject of "… continues without it.", for example "The video".
   DeviceWarnings(GstElement* element, std::string what)
       : element_(element), what_(std::move(what)) {}
 
@@ -31,7 +31,7 @@ class DeviceWarnings {
   /// empty string. Reports the result. Returns false when the stream must not begin.
   bool open(HapticOutput& output, const std::string& device, OnDeviceError policy,
             const std::function<std::string()>& opens);
-  /// Tells that the element starts, so that every warning may be posted again.
+  /// Call this when the element starts: every warning may be posted again.
   void start();
   /// Checks the device. Returns false when the stream must end, and then reports why.
   bool check(const HapticSession* session, OnDeviceError policy);
@@ -61,7 +61,7 @@ class DeviceWarnings {
   std::string profile_;     ///< the name of the device's profile
   guint strings_ = 0;       ///< bit i: string i
   bool pose_lost_ = false;  ///< the warning was posted, and the pose has not come back since
-  bool held_back_ = false;  ///< these warnings were posted
+  bool held_back_ = false;  ///< this and the next four: the warning was posted
   bool vibrated_ = false;
   bool shaken_ = false;
   bool late_ = false;

@@ -103,8 +103,8 @@ void session_fields(const HapticSession& session, FieldSink& to) {
      "time of an exchange: `median`, `p99`");
 }
 
-/// `simulated` points to the device "sim", or is null. If a test makes the ticks, only these move
-/// the grip, so that the speed of the test does not matter.
+/// Sets `simulated` to the device "sim", or to null. Unless `threaded`, only the ticks of a test
+/// move the grip, so that the speed of the test does not matter.
 std::unique_ptr<Grip> grip_for(const std::string& spec, const Profile& profile, bool threaded,
                                SimulatedDevice*& simulated) {
   simulated = nullptr;
@@ -228,8 +228,8 @@ std::string HapticOutput::open_named(const std::string& device, const std::strin
 
 void HapticOutput::close() {
   follower_.end();
-  // The reservation is destroyed after the lock is released, because the ramp to zero takes 60 ms,
-  // and after the session.
+  // Destroyed after the lock is released, because the ramp to zero takes 60 ms: first the session,
+  // then the reservation.
   std::unique_ptr<CardReservation> reservation;
   std::unique_ptr<HapticSession> session;
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -278,8 +278,8 @@ bool HapticOutput::read_device(DeviceView& view) {
   view.ticks.clear();
   ForceTick tick;
   while (session_->loop().pop_force(tick)) view.ticks.push_back(tick);
-  // After a long pause of the reader, the oldest ticks are there and the newest are not. A visible
-  // gap is better than one between ticks.
+  // After a long pause of the reader, the full queue has lost the newest ticks. Drop all of them: a
+  // visible gap is better than a hidden one between ticks.
   if (view.ticks.size() >= HapticLoop::kForces) view.ticks.clear();
   view.geometry = profile_.geometry;
   view.min_tension_N = profile_.min_tension_N();

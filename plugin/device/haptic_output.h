@@ -20,7 +20,7 @@ namespace spidar {
 class CardReservation;
 class SimulatedDevice;
 
-/// The haptic session of an element, and the playback clock that it follows. Thread-safe, but for
+/// The haptic session of an element, and the playback clock that it follows. Thread-safe except for
 /// session(), which is for state changes and the streaming thread.
 class HapticOutput {
  public:
@@ -29,8 +29,8 @@ class HapticOutput {
   HapticOutput(GstElement* element, std::function<void()> refreshed);
   ~HapticOutput();
 
-  /// For tests only, before open(): `now` replaces CLOCK_MONOTONIC, the test makes the ticks of the
-  /// loop, and each tick is a millisecond for the device "sim".
+  /// For tests only; call this before open(). `now` replaces CLOCK_MONOTONIC, the test runs the
+  /// ticks of the loop, and each tick advances the device "sim" by a millisecond.
   void set_manual(std::function<int64_t()> now);
 
   /// Opens the device; `profile` is a name or a path for load_profile(), or empty for the default
@@ -47,7 +47,7 @@ class HapticOutput {
   /// The limit of the open device. State changes.
   double max_force_N() const { return max_force_N_; }
   /// Begins the haptic trace, once. A file that has rows is overwritten only when there is a film,
-  /// so that a mistyped film leaves the file alone. Returns as open(), which calls this first.
+  /// so that a mistyped film leaves the file alone. Returns the same as open(), which calls this.
   std::string begin_trace(bool has_film);
   /// Brings the motors to rest and closes the device.
   void close();
@@ -77,7 +77,7 @@ class HapticOutput {
   GstElement* const element_;
   const std::function<void()> refreshed_;
   std::function<int64_t()> now_;                  ///< of set_manual(); null: CLOCK_MONOTONIC
-  mutable std::mutex mutex_;                      ///< between state changes and any thread
+  mutable std::mutex mutex_;                      ///< guards what state changes replace
   std::unique_ptr<CardReservation> reservation_;  ///< of the session's card
   std::unique_ptr<HapticSession> session_;
   SimulatedDevice* simulated_ = nullptr;  ///< the device of session_ if it is simulated, else null

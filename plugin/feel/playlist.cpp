@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::vector<std::string>;
 
-/// 10,000 films with long names have less.
+/// The largest playlist: 10,000 films with long names need less.
 constexpr uintmax_t kMax_bytes = uintmax_t{4} << 20;
 
 bool ends_as(const std::string& path, const std::set<std::string>& ends) {
@@ -43,7 +43,7 @@ bool is_there(const fs::path& path) {
   return fs::exists(path, error);
 }
 
-/// Text that is not UTF-8 comes from an old Windows, or is a name of unexplained bytes.
+/// Reads other text than UTF-8 as Windows-1252; returns it unchanged if that fails.
 std::string utf8_of(const std::string& text) {
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;
   const std::string converted = taken(g_convert_with_fallback(
@@ -51,8 +51,8 @@ std::string utf8_of(const std::string& text) {
   return converted.empty() ? text : converted;
 }
 
-/// The names in lines: those that are no comment, or in PLS those of "File1 =" and so on, by
-/// number; nothing for HLS, which is one film.
+/// Returns the names in M3U, in lines that are not comments, or in PLS, in "File1 =" and so on, by
+/// number. Returns nothing for HLS, which is one film.
 std::optional<Names> named_in_lines(const std::string& path) {
   std::map<size_t, std::string> names;
   bool is_pls = ends_as(path, {".pls"});
@@ -83,7 +83,7 @@ Names named_in_xml(const std::string& path) {
       text.data(), static_cast<int>(text.size()), nullptr, "UTF-8",
       HTML_PARSE_RECOVER | HTML_PARSE_NONET | HTML_PARSE_NOERROR | HTML_PARSE_NOWARNING);
   xmlXPathContext* const context = xmlXPathNewContext(document);
-  // The location of a whole playlist is that of its own file.
+  // A location directly below <playlist> is that of the playlist file itself.
   xmlXPathObject* const found = xmlXPathEvalExpression(
       BAD_CAST "//location[not(parent::playlist)] | //ref/@href | //entryref/@href | //media/@src",
       context);
@@ -99,8 +99,8 @@ Names named_in_xml(const std::string& path) {
   return names;
 }
 
-/// The file that a playlist in `folder` means by `name`: unchanged, without blanks around it, with
-/// slashes, and with decoded "%20" and so on; or else its URI, or its name there.
+/// Finds the file that a playlist in `folder` means by `name`: unchanged, trimmed, or with slashes,
+/// each also percent-decoded. If no such file exists, returns the URI, or the path in `folder`.
 std::string named_file(const fs::path& folder, const std::string& name) {
   const std::string bare = taken(g_strstrip(g_strdup(utf8_of(name).c_str())));
   if (bare.empty()) return {};
@@ -138,7 +138,7 @@ std::optional<Names> read_playlist(const std::string& path) {
   return names;
 }
 
-/// Adds the films of `word`. Each playlist is read once, so that none goes on for ever.
+/// Adds the films of `word`. Each playlist is read only once, so that cycles end.
 void add_films(const std::string& word, std::set<fs::path>& read, Names& films) {
   std::error_code error;
   std::optional<Names> names;

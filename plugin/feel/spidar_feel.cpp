@@ -104,7 +104,7 @@ struct Options {
   std::vector<std::string> properties;   ///< NAME=VALUE
   char** program = nullptr;              ///< with its arguments; null: --follow or --screen
   std::string followed;                  ///< name of the player; empty: any
-  std::optional<std::string> looked_at;  ///< by --screen
+  std::optional<std::string> looked_at;  ///< value of --screen
 };
 
 [[noreturn]] void fail(int status, const std::string& what) {
@@ -231,7 +231,7 @@ void set_environment(const std::vector<std::string>& properties) {
   g_setenv("GST_TRACERS", all.c_str(), TRUE);
 }
 
-/// Whether the file begins as programs do: as an ELF file, or as text.
+/// Whether the file begins like a program: as an ELF file, or as text without zero bytes.
 bool begins_as_program(const std::string& path) {
   char begin[256] = "";
   std::ifstream file(path, std::ios::binary);
@@ -240,7 +240,7 @@ bool begins_as_program(const std::string& path) {
   return std::memcmp(begin, "\177ELF", 4) == 0 || std::memchr(begin, '\0', size) == nullptr;
 }
 
-/// Whether `word` is a film to play, and no program. Some file systems let every file be executed.
+/// Whether `word` is a film and not a program. Some file systems mark every file as executable.
 bool is_film(const std::string& word) {
   if (word.find("://") != std::string::npos && gst_uri_is_valid(word.c_str())) return true;
   std::error_code error;
@@ -255,7 +255,7 @@ bool is_film(const std::string& word) {
          !begins_as_program(word);
 }
 
-/// Plays films with the player of GStreamer itself.
+/// Plays films with gst-play-1.0.
 void run_films(char** films) {
   std::vector<std::string> named;
   for (char** film = films; *film; ++film) {
@@ -301,7 +301,7 @@ void run_films(char** films) {
   fail(kCannotRun, std::string(kPlayer) + ": " + std::strerror(error));
 }
 
-/// Whether the program is one that people try, and that shows no video by GStreamer.
+/// Whether the program is a common player that does not use GStreamer.
 bool is_without_gstreamer(const std::string& program) {
   constexpr const char* kPrograms[] = {"mpv",  "vlc",     "cvlc",     "mplayer",      "ffplay",
                                        "kodi", "firefox", "chromium", "google-chrome"};

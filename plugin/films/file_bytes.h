@@ -22,7 +22,7 @@ inline uint64_t little_endian(std::string bytes, size_t at, size_t count) {
   return big_endian(bytes, at, count);
 }
 
-/// Whether `text` stands at `at`; there may be fewer bytes.
+/// Whether `bytes` contains `text` at `at`; false if there are too few bytes.
 inline bool has_at(const std::string& bytes, size_t at, std::string_view text) {
   return bytes.size() >= at + text.size() && bytes.compare(at, text.size(), text) == 0;
 }

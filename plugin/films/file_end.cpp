@@ -34,7 +34,7 @@ FilmEnd end_of_chunks(FileBytes& file) {
   return FilmEnd::kWhole;
 }
 
-/// The types of boxes that are not inside others.
+/// Whether `type` is that of a top-level box.
 bool is_box(const std::string& type) {
   constexpr const char* kTypes[] = {"emsg", "free", "ftyp", "mdat", "meta", "mfra",
                                     "moof", "moov", "pdin", "pnot", "prft", "sidx",
@@ -95,7 +95,7 @@ FilmEnd last_page(FileBytes& file) {
   const uint64_t from = file.size() > kLongestPage ? file.size() - kLongestPage : 0;
   const std::string tail = file.read(from, kLongestPage);
   const size_t page = tail.rfind("OggS");
-  if (page == std::string::npos) return FilmEnd::kUnknown;  // so much has been appended
+  if (page == std::string::npos) return FilmEnd::kUnknown;  // more than a page has been appended
   if (tail.size() - page < kHead) return FilmEnd::kCutOff;
   const size_t segments = static_cast<uint8_t>(tail[page + kHead - 1]);
   size_t end = page + kHead + segments;
@@ -149,7 +149,7 @@ FileLength length_of_wav(FileBytes& file) {
   return {};
 }
 
-/// In samples of the stream, whose first frame begins after 0 where the beginning was trimmed.
+/// In samples of the stream; if its beginning was trimmed, the first frame does not begin at 0.
 struct FlacLength {
   uint64_t rate_Hz = 0;         ///< 0: there is no header
   uint64_t promised = 0;        ///< by the header; 0: its writer did not know
@@ -181,8 +181,8 @@ uint8_t crc8(const std::string& bytes, size_t from, size_t to) {
   return static_cast<uint8_t>(crc);
 }
 
-/// Where the frame ends that begins there: its checksum comes last, so that it becomes 0. Nothing
-/// when it is not whole.
+/// Returns the end of the frame that begins at `from`: after its checksum, the CRC is 0. Returns
+/// nothing when the frame is incomplete.
 std::optional<size_t> end_of_frame(const std::string& bytes, size_t from) {
   unsigned crc = 0;
   for (size_t i = from; i < bytes.size(); ++i) {
@@ -193,8 +193,8 @@ std::optional<size_t> end_of_frame(const std::string& bytes, size_t from) {
   return std::nullopt;
 }
 
-/// Whether another frame begins there, of which there may be a single byte; what taggers append
-/// does not begin like one.
+/// Whether another frame, or only its first byte, begins at `from`. What taggers append does not
+/// begin like a frame.
 bool begins_frame(const std::string& bytes, size_t from) {
   const auto byte = [&bytes](size_t i) { return static_cast<uint8_t>(bytes[i]); };
   return from < bytes.size() && byte(from) == 0xff &&
@@ -273,8 +273,8 @@ FlacLength flac_length(FileBytes& file) {
   if (!info) return length;
   length.rate_Hz = info->rate_Hz;
   length.promised = info->samples;
-  // More than a frame of 65535 samples of 32 bits in eight channels is rare; appended data are
-  // shorter.
+  // Longer frames (up to 65535 samples of 32 bits in eight channels) are rare, as are longer
+  // appended data.
   constexpr uint64_t kEnd = uint64_t{1} << 18U;
   const uint64_t from = file.size() > first + kEnd ? file.size() - kEnd : first;
   const std::string end = file.read(from, kEnd);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the end of a file is there, and how long its sound is, by its header and its last bytes,
+/// Finds whether a file is cut off, and how long its sound is, from its header and its last bytes,
 /// without decoding.
 #pragma once
 
@@ -17,8 +17,8 @@ enum class FilmEnd {
   kUnknown,   ///< the file does not state it
 };
 
-/// Judges by the length that AVI, Matroska, WebM, MP4, QuickTime and Ogg state. The demuxers of
-/// GStreamer take a truncated film for a shorter one that is whole. Data that cameras and taggers
+/// Uses the length that AVI, Matroska, WebM, MP4, QuickTime and Ogg state. The demuxers of
+/// GStreamer take a truncated film for a shorter, whole one. Data that cameras and taggers
 /// append are no part of the film.
 FilmEnd film_end(const std::string& path);
 

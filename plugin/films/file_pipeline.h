@@ -51,8 +51,8 @@ class FilePipeline {
   static constexpr GstClockTime kLook = 20 * GST_MSECOND;
   /// Call this once in kLook. Throws std::runtime_error as play_until() does when nothing comes.
   void check(Progress& progress) const;
-  /// Holds the streams where they are, until play_until(), and forgets earlier messages: an EOS
-  /// that follows a seek is then that of the seek.
+  /// Pauses the streams until play_until(), and discards earlier messages, so that an EOS after a
+  /// seek belongs to that seek.
   void pause() const;
   void stop() const { gst_element_set_state(pipeline_.get(), GST_STATE_NULL); }
 
@@ -72,7 +72,7 @@ class FilePipeline {
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
 };
 
-/// Goes to the key frame before a time. Returns whether that is possible.
+/// Seeks to the key frame before `time_ns`. Returns whether that succeeds.
 bool seek_before(GstElement* sink, int64_t time_ns);
 
 std::string seconds_text(int64_t ns);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The films that a command line names, by themselves or by their folders.
+/// Lists the films that a command line names, directly or by their folders.
 #pragma once
 
 #include <cstdint>

@@ -38,14 +38,14 @@ std::pair<const uint8_t*, size_t> after_last_length(const uint8_t* data, size_t 
   return unit;
 }
 
-/// The largest power of two that is not larger.
+/// Returns the largest power of two that is at most `size`.
 size_t floor_to_power(size_t size) {
   size_t power = 1;
   while (power <= size / 2) power *= 2;
   return power;
 }
 
-constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};  // a wild timestamp is later
+constexpr int64_t kLongest_ns = 24 * 3600 * int64_t{1'000'000'000};  // a later timestamp is wrong
 constexpr size_t kDigits = 16;  // of a hash: two films share one of 256 pictures once in 10^14
 
 }  // namespace
@@ -118,7 +118,7 @@ std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
   std::optional<int64_t> later_ns;
   for (const FilmPacket& packet : packets) {
     if (packet.hash != fingerprint.hash) continue;
-    // If a picture is repeated, the nearest one counts.
+    // If several packets match, take the nearest one.
     const int64_t this_ns = packet.time_ns - fingerprint.time_ns;
     if (!later_ns || std::llabs(this_ns) < std::llabs(*later_ns)) later_ns = this_ns;
   }
@@ -127,7 +127,7 @@ std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
 
 namespace {
 
-/// The fingerprint comes from so many packets, or from fewer that are large.
+/// The fingerprint comes from this many packets, or from fewer if they are large.
 constexpr size_t kStartPackets = 256;
 constexpr size_t kStartBytes = size_t{8} << 20;
 /// The most data from the last key frame to the end of the film.
@@ -201,7 +201,7 @@ class FilmReader {
     static_cast<FilmReader*>(user)->content_of_stream(pad);
   }
 
-  /// Whether it is a track is known before it flows, or not earlier.
+  /// Called when a pad is added and when its data flow: a track may be recognised only then.
   StreamContent content_of_stream(GstPad* pad) {
     const StreamContent content = content_of(pad);
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -37,7 +37,7 @@ struct FilmPacket {
 
 /// The largest compressed picture at the beginning of a film: pictures that are easy to encode,
 /// such as black, are the same in many films. The fingerprint stays when the film is copied into
-/// another container, and differs when it is encoded anew.
+/// another container, and differs when it is re-encoded.
 struct FilmFingerprint {
   std::string hash;
   int64_t time_ns = 0;

@@ -17,20 +17,20 @@ extern const char* const kTrackMark;
 /// say nothing about a single one.
 bool is_marked_track(const GstTagList* tags);
 
-/// Whether the stream that comes to a pad is marked, by its events.
+/// Finds from the events of a stream whether it is marked as a track.
 class TrackMark {
  public:
   void update(GstEvent* event);
   bool is_set() const { return is_set_; }
 
  private:
-  // When the first packets of a network stream are lost, its tags may come before its start, after
-  // one that rtpgstdepay has made up. Such a stream has no caps.
+  // When the first packets of a network stream are lost, its tags may come after a STREAM_START
+  // that rtpgstdepay has made up, and before the real one. The made-up stream has no caps.
   bool has_caps_ = false;
   bool is_set_ = false;
 };
 
-/// Whether a tag that has come to `pad` is marked.
+/// Whether a tag that `pad` has received contains the mark.
 bool is_marked_track(GstPad* pad);
 
 /// Whether sound without conversion, such as that in a file, has the form of the tracks that this

@@ -12,7 +12,7 @@ std::string id_of(GstPad* pad) {
   return taken(gst_pad_get_stream_id(pad));
 }
 
-/// 1 if the film marks the stream as its own, −1 if it says the opposite, else 0.
+/// 1 if the film marks the stream as default, −1 if it marks the stream as deselected, else 0.
 int mark_of(GstPad* pad) {
   const Ref<GstEvent> start(gst_pad_get_sticky_event(pad, GST_EVENT_STREAM_START, 0));
   if (!start) return 0;

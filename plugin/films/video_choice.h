@@ -15,8 +15,8 @@ namespace spidar {
 class VideoChoice {
  public:
   enum class Rule {
-    kFirst,   ///< as playbin and playbin3, even if the film marks another one as its own
-    kMarked,  ///< as VLC and mpv: one that the film marks as its own comes before the first
+    kFirst,   ///< as playbin and playbin3, even if the film marks another stream as default
+    kMarked,  ///< as VLC and mpv: a stream that the film marks as default, else the first
   };
 
   explicit VideoChoice(Rule rule) : rule_(rule) {}

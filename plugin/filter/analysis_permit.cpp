@@ -13,8 +13,8 @@
 namespace spidar::filter {
 namespace {
 
-/// A frame takes less. An analysis that has not ended by then may never end, for example because
-/// the thread with the permit itself has called exit(), in a signal handler.
+/// Longer than any analysis takes. One that has not ended by then may never end, for example
+/// because a signal handler called exit() in the thread that holds the permit.
 constexpr std::chrono::seconds kLongestWait{1};
 
 struct Permits {
@@ -26,7 +26,7 @@ struct Permits {
   const pid_t process = getpid();
 };
 
-/// The list is never destroyed: a thread may still ask for a permit while the process ends.
+/// Never destroyed, because a thread may still request a permit while the process exits.
 Permits& permits() {
   static auto& all = *new Permits;
   return all;
@@ -49,8 +49,8 @@ AnalysisPermit::AnalysisPermit() {
   is_given_ = !all.is_ending;
   if (!is_given_) return;
   ++all.given;
-  // exit() calls the newest handler first. OpenCV makes its objects at their first use, some of
-  // them only in a later frame: so the handler is registered again before frames 2, 3, 5, 9, 17 …
+  // exit() calls the last registered handler first. OpenCV creates its static objects on first use,
+  // some only in a later frame, so register again before frames 2, 3, 5, 9, 17 …
   const uint64_t before = all.frames++;
   if ((before & (before - 1)) == 0) std::atexit(wait_for_frames);
 }

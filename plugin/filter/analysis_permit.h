@@ -4,11 +4,11 @@
 
 namespace spidar::filter {
 
-/// Lets a streaming thread analyse one frame, unless the process ends.
+/// Permits a streaming thread to analyse one frame, unless the process is exiting.
 ///
-/// A player may call exit() while its pipeline plays. That destroys the static objects of OpenCV,
-/// and a streaming thread that uses them crashes the player. So exit() waits until the frames of
-/// all elements are analysed, for one second at most, and from then on no permit is given.
+/// A player may call exit() while its pipeline plays. exit() destroys the static objects of OpenCV,
+/// and a streaming thread that still uses them would crash the player. An exit handler therefore
+/// waits, for one second at most, until no frame is being analysed, and stops further permits.
 class AnalysisPermit {
  public:
   AnalysisPermit();
@@ -16,7 +16,7 @@ class AnalysisPermit {
   AnalysisPermit(const AnalysisPermit&) = delete;
   AnalysisPermit& operator=(const AnalysisPermit&) = delete;
 
-  /// False when the process ends: the frame passes unchanged.
+  /// Returns false when the process is exiting: the frame must then pass unchanged.
   explicit operator bool() const { return is_given_; }
 
  private:

@@ -16,26 +16,26 @@
 
 namespace spidar::filter {
 
-/// Reports on the bus when something is wrong that does not stop the video, each warning once per
-/// stream. Streaming thread, and start() before it.
+/// Posts a warning on the bus for each problem that does not stop the video, each once per stream.
+/// Use it in the streaming thread; call start() before that thread runs.
 class BusWarnings {
  public:
   explicit BusWarnings(GstElement* element) : element_(element), device_(element, "The video") {}
 
-  /// Tells that the element starts, so that every warning may be posted again.
+  /// Call this when the element starts: every warning may be posted again.
   void start();
-  /// Tells that another stream begins, so that faults of frames may be reported again.
+  /// Call this when a stream begins: all warnings except trace and device may be posted again.
   void begin_stream() {
     frame_faults_ = 0;
     exception_ = false;
     touch_track_ = touch_device_ = stiffness_ = pointer_ = false;
   }
 
-  /// Checks the bins around the element, which may have a running time of their own.
+  /// Warns if the element is in an editing timeline, whose clips have their own running times.
   void check_bins();
   void check_frame(const FrameReport& report);
-  /// Calls `function`. When it throws, reports that once, and returns false: an unforeseen
-  /// exception does not end a film. `doing` completes "while …" in the debug text.
+  /// Calls `function`. If it throws, posts a warning (once per stream) and returns false: an
+  /// unexpected exception does not stop the video. `doing` completes "while …" in the debug text.
   template <typename Function>
   bool guard(const char* doing, Function&& function,
              SourceLocation location = SourceLocation::here()) {
@@ -50,7 +50,7 @@ class BusWarnings {
       return false;
     }
   }
-  /// Reports once that the trace can no longer be written. `error` is errno, or 0 when all is well.
+  /// Warns once when the trace can no longer be written. `error` is errno, or 0 if there is none.
   void check_trace(int error);
   void check_touch(const HapticOutput& output, const FrameReport& report,
                    const TouchProperties& wanted);

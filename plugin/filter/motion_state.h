@@ -24,8 +24,8 @@
 
 namespace spidar::filter {
 
-/// The state of an element spidarmotion: its settings, and the parts that its frames and events go
-/// through. The functions involve several of these parts.
+/// The state of an element `spidarmotion`: its settings, and the parts that process its frames and
+/// events.
 struct MotionState {
   explicit MotionState(GstElement* element);
 
@@ -33,12 +33,12 @@ struct MotionState {
 
   // --- streaming thread
 
-  /// Tells that running time begins anew: after a flush, and before a stream.
+  /// Call this when running time restarts: after a flush, and before a stream.
   void reset();
   /// Processes a frame with `frame_settings`. Returns report().
   const FrameReport& process(const GstVideoFrame& frame, const GstSegment& segment);
   const FrameReport& report() const { return report_; }
-  /// Tells that the next frame does not continue the previous one: a seek, a new film or rate.
+  /// Call this when the next frame does not continue the previous one: seek, new film, new rate.
   void begin_epoch() { ++epoch_; }
   /// Call this instead of process() for a frame without a picture.
   void pass_gap(GstBuffer* buffer, const GstSegment& segment);
@@ -52,10 +52,10 @@ struct MotionState {
   // Any thread.
   HapticFeed feed;
   MotionStats stats;
-  TrackRenderer track;  ///< frames in the streaming thread
+  TrackRenderer track;  ///< its functions for frames: streaming thread
   MotionChoice choice;
   MotionDisplay display;
-  StepWatch steps;  ///< state changes
+  StepWatch steps;  ///< begin() and end() in state changes
 
   // Streaming thread.
   FrameSettings frame_settings;  ///< of the frame that passes

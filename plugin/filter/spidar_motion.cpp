@@ -5,28 +5,27 @@
  * @title: spidarmotion
  * @short_description: feel the motion of a video with a SPIDAR haptic device
  *
- * Looks at the frames that pass, measures how the blocks of the picture and the objects in it move,
- * turns the motion into force and torque, and gives them to the grip of a SPIDAR-G at the moment
- * the frame is shown. The video itself is passed on untouched.
+ * Measures how the blocks of each picture and the objects in it move, converts the motion into
+ * force and torque, and renders them at the grip of a SPIDAR-G at the moment when the frame is
+ * shown. The video itself passes unchanged.
  *
- * By default the object that stands out most against the background is felt (#spidarmotion:motion),
- * smoothed by a One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and
- * filter-min-cutoff=0 it is the mean velocity of Shi-Tomasi points that Lucas-Kanade tracks, as in
- * the paper.
+ * By default, the motion of the most prominent object is felt (#spidarmotion:motion), smoothed by a
+ * One-Euro filter (#spidarmotion:filter-min-cutoff). With motion=mean and filter-min-cutoff=0, the
+ * mean velocity of Shi-Tomasi points, tracked by Lucas-Kanade, is felt as in the paper.
  *
- * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset (pad
- * offsets and a clocksync on the way to the sink count, too); its force is felt then
- * (+ #spidarmotion:ts-offset), between two frames it is interpolated. Before PLAYING,
- * in PAUSED and after the end there is none.
+ * A frame is shown at base time + running time + pipeline latency + the sink's ts-offset, plus pad
+ * offsets and any clocksync before the sink. Its force is felt at that time +
+ * #spidarmotion:ts-offset; between two frames, the force is interpolated. Before PLAYING, in PAUSED
+ * and after the end of the stream, there is no force.
  *
- * Where the tag `image-orientation` says that the picture is turned or mirrored before it is shown,
- * as that of a telephone held upright, force and torque are turned like it, and so are the relief
- * of #spidarmotion:touch and the positions of pointer and grip. What refers to pixels, velocities
- * and objects, stays in the coordinates of the frame.
+ * If the tag `image-orientation` says that the picture is turned or mirrored for display, such as
+ * that of a phone held upright, then force, torque, the relief of #spidarmotion:touch and the
+ * positions of pointer and grip are turned with the picture. Values in pixels, such as velocities
+ * and objects, stay in the coordinates of the frame.
  *
- * Of files that properties name, the ending says what they are: #spidarmotion:trace writes .csv or
- * .jsonl, #spidarmotion:track plays .flac, .mka, .wav or a film, #spidarmotion:feel reads .feel.
- * For the two that are read, `auto` is the file beside the film that has its name with this ending.
+ * The extension of a file determines its type: #spidarmotion:trace writes .csv or .jsonl,
+ * #spidarmotion:track plays .flac, .mka, .wav or a film, #spidarmotion:feel reads .feel. For track
+ * and feel, `auto` selects the file beside the film with the film's name and such an extension.
  *
  * The element posts a `spidar-motion` element message for each frame when
  * #spidarmotion:post-messages is set; `stats` has the same for the picture on the screen. The page
@@ -73,7 +72,7 @@ static void gst_spidar_motion_init(GstSpidarMotionFilter* self);
 static void gst_spidar_motion_class_init(GstSpidarMotionFilterClass* klass);
 static gpointer gst_spidar_motion_parent_class = nullptr;
 
-/// The macro would name the type as the structure, but GstSpidarMotion belongs to the C API.
+/// Replaces G_DEFINE_TYPE, which needs a structure GstSpidarMotion, a name that the C API uses.
 GType gst_spidar_motion_get_type() {
   static const GType type = [] {
     const GType registered = g_type_register_static_simple(
@@ -103,8 +102,8 @@ MotionState& gst_spidar_motion_state(GstSpidarMotionFilter* self) {
 // --- debug window ------------------------------------------------------------------------------
 
 /// Opens or closes the debug window according to the property and the state. If several threads
-/// change these at the same time, one of them does the work for all. The others must not be waited
-/// for, because one of them may be the window's own thread.
+/// change these at the same time, one of them does the work for all. No thread waits for another,
+/// because one of them may be the window's own thread.
 static void follow_debug_window(GstSpidarMotionFilter* self) {
   MotionState& state = *self->state;
   if (g_atomic_int_add(&state.window_changes, 1) > 0) return;
@@ -233,8 +232,8 @@ static void gst_spidar_motion_set_property(GObject* object, guint id, const GVal
   spidar::follow_property(kUnlockedEffects, self, spec, value);
 }
 
-/// In the folder of an installed plugin, GStreamer finds presets by itself only if GStreamer is
-/// installed there, too; in a build folder they are beside the plugin.
+/// Sets the folder of the presets: that of the plugin in a build folder, otherwise the installed
+/// one, which GStreamer finds by itself only if it is installed under the same prefix.
 static void find_presets() {
   for (const std::filesystem::path& folder :
        {spidar::own_file().parent_path(), spidar::installed(SPIDAR_PRESET_DIR)}) {

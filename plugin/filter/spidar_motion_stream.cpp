@@ -24,7 +24,7 @@ static GstBaseTransformClass* parent_class() {
   return GST_BASE_TRANSFORM_CLASS(g_type_class_peek(GST_TYPE_VIDEO_FILTER));
 }
 
-/// Takes the settings of the frame, which the frame keeps on its way.
+/// Copies the settings for the frame, so that they stay the same while it is processed.
 static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffer* buffer) {
   GstSpidarMotionFilter* self = GST_SPIDAR_MOTION(trans);
   MotionState& state = *self->state;
@@ -52,7 +52,7 @@ static void begin_to_load_track(GstSpidarMotionFilter* self) {
   state.track.begin_stream(track, film);
 }
 
-/// Adds the pointer and the choice of this moment.
+/// Adds the present pointer and choice to the settings of the frame.
 static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
   spidar::FrameSettings& settings = state.frame_settings;
   if (settings.pointer == Pointer::Kind::kGrip) {
@@ -150,7 +150,7 @@ static bool same_playback(const GstSegment& a, const GstSegment& b) {
          a.time == b.time && a.offset == b.offset;
 }
 
-/// The trace is opened with the first video, so that a missing film leaves the last trace as it is.
+/// Opens the trace at the first caps, so that a missing film does not overwrite the last trace.
 static void open_trace(GstSpidarMotionFilter* self) {
   MotionState& state = *self->state;
   const std::string trace = std::exchange(state.next_trace, "");
@@ -213,7 +213,7 @@ static gboolean gst_spidar_motion_sink_event(GstBaseTransform* trans, GstEvent* 
     case GST_EVENT_GAP: {
       GstClockTime time, duration;
       gst_event_parse_gap(event, &time, &duration);
-      // In reverse playback the gap begins at its end.
+      // In reverse playback, the end of the gap comes first.
       if (trans->segment.rate < 0 && GST_CLOCK_TIME_IS_VALID(duration)) time += duration;
       GST_DEBUG_OBJECT(self, "gap from %" GST_TIME_FORMAT ", force ends there",
                        GST_TIME_ARGS(time));
@@ -239,7 +239,7 @@ static void process_mouse(GstSpidarMotionFilter* self, GstEvent* event) {
   if (!points) return;
   const auto mouse = spidar::filter::read_mouse(event, GST_BASE_TRANSFORM_SRC_PAD(self));
   if (!mouse) return;
-  // A led hand also points, but its clicks choose no objects.
+  // While the mouse leads the hand, a move also points, but a click chooses no object.
   const bool leads_hand = state.display.hand().update(*mouse);
   if (!leads_hand || mouse->act == spidar::filter::SinkMouse::Act::kMove) {
     state.choice.mouse().update(*mouse);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The fields of a frame, or of a piece of a haptic track, that users read. A new field is a row of
-/// frame_fields() with its value, and its outputs.
+/// The fields of a frame, or of a piece of a haptic track, that users read. To add a field, add a
+/// row with its value and its outputs to frame_fields().
 #pragma once
 
 #include <cstdint>

@@ -178,7 +178,7 @@ ImageView FrameLuma::unpacked(const GstVideoFrame& frame, const PicturePart& sho
 }
 
 ImageView FrameLuma::first_field(const ImageView& frame, bool top_first) {
-  // Takes the lines of one field, with their means in between, which keeps the picture's height.
+  // Copy the lines of one field and interpolate the others, which keeps the picture's height.
   const size_t width = static_cast<size_t>(frame.width);
   const int first = top_first ? 0 : 1;
   field_.resize(width * static_cast<size_t>(frame.height));

@@ -22,7 +22,7 @@ namespace spidar {
   "Y444_10BE, Y444_12BE, Y444_16BE, A420_10BE, A422_10BE, A444_10BE, GRAY16_BE, " \
   "BGR, RGB, BGRx, RGBx, BGRA, RGBA }"
 
-/// Further formats that FrameLuma reads after GStreamer has unpacked them, which is a conversion.
+/// Further formats, which FrameLuma reads after GStreamer has unpacked (converted) each row.
 #define SPIDAR_UNPACKED_FORMATS                                          \
   "{ YUY2, UYVY, YVYU, VYUY, AYUV, VUYA, v308, ARGB, xRGB, ABGR, xBGR, " \
   "GBR, GBR_10LE, GBR_12LE, GBR_10BE, GBR_12BE, Y210, Y212_LE, Y410, "   \
@@ -40,13 +40,13 @@ namespace spidar {
 ///   the previous one is left out.
 /// - other multiview flags say which eye a picture is for, and not where it is.
 /// - views counts pictures in planes or buffers of their own, of which the first one is mapped.
-/// - colorimetry: luma_levels() reads the range, black and white of touch=luma. Motion is where
-///   pictures fit best, whatever their contrast: limited range has 0.86 of the other's. Matrix,
+/// - colorimetry: luma_levels() reads the range, which gives black and white for touch=luma. Motion
+///   does not depend on contrast, which in limited range is 0.86 of that in full range. Matrix,
 ///   transfer and primaries are the same in all frames, and motion needs none of them.
 /// - chroma_site: chroma is not read.
 /// - fps_n, fps_d: nominal_duration(), where a frame has no duration of its own.
-/// - size, flags: holds_picture() looks at the memory itself. The flags speak of rates that vary,
-///   which the time stamps show, and of alpha, which is not read.
+/// - size, flags: holds_picture() looks at the memory itself. The flags announce variable rates,
+///   which the timestamps show, and alpha, which is not read.
 
 /// The part of a frame that is shown, and therefore analysed: its crop meta, else the whole frame;
 /// of two views beside or above each other, the first.
@@ -66,7 +66,7 @@ struct LumaLevels {
 LumaLevels luma_levels(const GstVideoInfo& info);
 
 /// Whether the mapped memory holds every line of every plane, one after the other from the top.
-/// GStreamer believes a GstVideoMeta without checking.
+/// GStreamer does not check a GstVideoMeta.
 bool holds_picture(const GstVideoFrame& frame);
 
 /// Returns the luma of a video frame for the analysis. Reads plane 0 of planar and semi-planar

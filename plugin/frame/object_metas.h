@@ -20,18 +20,18 @@ namespace spidar {
 /// A box of an object that another project's element attaches to a frame, in pixels of that frame;
 /// the box may lie partly outside.
 struct ObjectBox {
-  std::string name;  ///< of its content, such as "face"
+  std::string name;  ///< what the box contains, such as "face"
   double x, y, width, height;
 };
 
 constexpr const char* kObjectName = "spidar-object";
 
 /// Reads the regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a
-/// size are left out. Ids number the regions of a frame, and do not identify them in the next.
+/// size are left out. Their ids number the regions of one frame and identify nothing in the next.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
-/// Attaches the visible objects to `buffer`, which is writable, as regions and as detections.
-/// Regions that another spidarmotion has attached are replaced.
+/// Attaches the visible objects to `buffer`, which must be writable, as regions and as detections.
+/// Replaces the regions of another spidarmotion.
 void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 /// The boxes of a frame, in its shown picture; null when there are none. The picture of a `packed`

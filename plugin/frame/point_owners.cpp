@@ -89,7 +89,7 @@ Eigen::Vector2d force_origin_px(const DrawnFrame& report) {
     return middle_px;
   }
   mean_px /= static_cast<double>(on_px.size());
-  // The mean position of a curved object lies outside it.
+  // The mean may lie outside a curved object, so take the point nearest to it.
   return *std::min_element(on_px.begin(), on_px.end(), [&](const auto& a, const auto& b) {
     return (a - mean_px).squaredNorm() < (b - mean_px).squaredNorm();
   });

@@ -15,8 +15,8 @@ namespace spidar {
 /// was chosen; none while only the surface is felt.
 std::vector<uint32_t> felt_objects(const DrawnFrame& report);
 
-/// Where the arrow of the force begins, in pixels of the frame: on the points of the one object
-/// that is felt, not merely in its box, else in the middle of the film.
+/// The start of the force arrow, in pixels of the frame: one of the points of the single felt
+/// object, otherwise the middle of the film.
 Eigen::Vector2d force_origin_px(const DrawnFrame& report);
 
 /// An object's box, in pixels of the frame, of which `film` is the part that was analysed.
@@ -25,7 +25,7 @@ Eigen::AlignedBox2d box_px(const MovingObject& object, const PicturePart& film);
 /// Assigns points to the background or to objects for display, over several frames.
 class PointOwners {
  public:
-  /// Fills in points, lost and felt of an analysed frame.
+  /// Fills in `points`, `lost` and `felt` of an analysed frame.
   void find(DrawnFrame& report);
   /// Call this before frames that are not analysed.
   void reset() { compares_ = false; }

@@ -31,12 +31,12 @@ inline Orientation turn_of(GstVideoOrientationMethod method) {
 }
 
 /// The orientation in which the frames of a stream are shown. Follows the tag `image-orientation`
-/// by the rules of videoflip: the tag of the stream counts before that of the whole film.
+/// by the rules of videoflip: the tag of the stream has priority over that of the whole film.
 class StreamOrientation {
  public:
   /// Begins another stream, whose tags are not known yet.
   void begin_stream() { *this = {}; }
-  /// Returns whether the tags have one.
+  /// Returns whether the tags contain an orientation.
   bool update(const GstTagList* tags) {
     const bool of_film = gst_tag_list_get_scope(tags) == GST_TAG_SCOPE_GLOBAL;
     // The cast is safe because the function does not change the tags.
@@ -50,7 +50,7 @@ class StreamOrientation {
   Orientation turn() const { return turn_of(method()); }
 
  private:
-  // AUTO: there is none.
+  // GST_VIDEO_ORIENTATION_AUTO: no tag.
   GstVideoOrientationMethod of_stream_ = GST_VIDEO_ORIENTATION_AUTO;
   GstVideoOrientationMethod of_film_ = GST_VIDEO_ORIENTATION_AUTO;
 };

@@ -13,12 +13,11 @@
 
 namespace spidar {
 
-/// Maps the grip's position to a position of the picture. The picture is upright in the device's xy
-/// plane, its middle at the workspace's centre, and its edges half of the way to the frame, that
-/// is, to the box that holds the exits of the strings: there the grip can still be held
-/// (docs/strings.md). Right is right, up is up; depth and rotation of the grip do not move the
-/// pointer. `turn` turns the picture before it is shown; positions are those of the picture before:
-/// (0, 0) is its top left corner, (1, 1) its bottom right one.
+/// Maps the grip's position to a position in the picture. The picture is upright in the device's xy
+/// plane. Its middle is the centre of the workspace; its edges are halfway to the frame, the box
+/// around the exits of the strings, because there the grip can still be held (docs/strings.md).
+/// Depth and rotation of the grip do not move the pointer. `turn` is how the picture is turned for
+/// display; positions are those before it is turned: (0, 0) is top left, (1, 1) bottom right.
 class GripPointer {
  public:
   /// Without a device, every position is the middle.

@@ -31,8 +31,8 @@ Ref<GstObject> root_of(Object* object) {
   return bins.empty() ? new_ref(GST_OBJECT(object)) : std::move(bins.back());
 }
 
-/// A pad that frames pass. `element` is the one that they enter there; null where they leave an
-/// element, or at the inner side of a ghost pad.
+/// A pad on the path of the frames. `element` is the one that they enter through this pad; null if
+/// they leave an element there, or at the inner side of a ghost pad.
 struct DownstreamStep {
   Ref<GstPad> pad;
   Ref<GstElement> element;

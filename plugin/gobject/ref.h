@@ -31,14 +31,14 @@ Ref<Object> new_ref(Object* object) {
   return Ref<Object>(object ? static_cast<Object*>(g_object_ref(object)) : nullptr);
 }
 
-/// Returns a text and frees it; empty for null.
+/// Copies a text and frees it; empty for null.
 inline std::string taken(gchar* text) {
   std::string copy = text ? text : "";
   g_free(text);
   return copy;
 }
 
-/// Takes a new object, to which nobody has a reference, for its owner.
+/// Takes ownership of a new object by sinking its floating reference.
 template <typename Object>
 Ref<Object> sunk(Object* object) {
   return Ref<Object>(object ? static_cast<Object*>(g_object_ref_sink(object)) : nullptr);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Properties from text that was checked before.
+/// Sets properties from text that was checked before.
 #pragma once
 
 #include <string>

@@ -8,12 +8,12 @@
 
 namespace spidar {
 
-/// Counts the messages of an element that wait on its bus, and lives as long as the element: nobody
-/// may read them. Any thread.
+/// Limits the messages of an element that wait on its bus, because perhaps nobody reads them. Lives
+/// as long as the element. Any thread.
 class UnreadMessages {
  public:
-  /// No more messages wait, because unread ones would fill the memory by hundreds of megabytes an
-  /// hour. At 25 frames/s an application has 40 s to read its bus.
+  /// The most waiting messages: unread ones would fill the memory by hundreds of megabytes an hour.
+  /// At 25 frames/s, an application has 40 s to read its bus.
   static constexpr int kMax = 1000;
 
   /// Posts the message that `make()` returns, or nothing while kMax messages wait.

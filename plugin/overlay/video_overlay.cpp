@@ -38,7 +38,7 @@ int thickness(double width_px) {
   return whole(width_px - 1);
 }
 
-/// Turns a picture back to how it is stored when `turn` turns it before it is shown.
+/// Turns a shown picture into the orientation in which the frame is stored.
 cv::Mat coded(cv::Mat shown, const Orientation& turn) {
   const Eigen::Vector2d right = turn.to_stored(Eigen::Vector2d(1, 0));
   const Eigen::Vector2d down = turn.to_stored(Eigen::Vector2d(0, 1));
@@ -91,7 +91,7 @@ class Sheet {
     cv::line(pixels_, fixed(from_px), fixed(to_px), bgra(color), thickness(width_px), cv::LINE_AA,
              kShift);
   }
-  /// Draws a filled triangle, or its outline.
+  /// Draws a filled triangle, and its outline if `outline_px` > 0.
   void triangle(const std::array<Eigen::Vector2d, 3>& corners_px, double outline_px, Rgb color) {
     std::vector<cv::Point> corners;
     for (const Eigen::Vector2d& corner_px : corners_px) {
@@ -116,7 +116,7 @@ class Sheet {
     cv::rectangle(pixels_, fixed(low_px), fixed(high_px), bgra(color), whole(width_px), cv::LINE_8,
                   kShift);
   }
-  /// Draws a ring, or a disc without a width.
+  /// Draws a ring, or a disc if `width_px` is 0.
   void circle(const Eigen::Vector2d& centre_px, double radius_px, double width_px, Rgb color) {
     if (!is_near(centre_px) || !(radius_px >= 0) || radius_px > kFar_px) return;
     const auto radius = static_cast<int>(std::lround(radius_px * (1 << kShift)));
@@ -195,7 +195,7 @@ void Sheet::blend_into(GstVideoFrame& frame) const {
   gst_buffer_unref(buffer);
 }
 
-/// Draws a border of `margin_px` all around.
+/// Draws an arrow, widened by `margin_px` on all sides.
 void draw_arrow(const Arrow& arrow, double margin_px, Rgb color, Sheet& sheet) {
   const double width_px = arrow.width_px + 2 * margin_px;
   const std::optional<ArrowHead> head = head_of(arrow);
@@ -237,7 +237,7 @@ void draw_touch(const TouchMark& touch, const PicturePart& visible, ArrowStyle s
   sheet.circle(style.centre_px, radius_px, 0, kProxy);
 }
 
-/// Draws a thick orange line around an object that is felt.
+/// Draws the box of an object: thick and orange if the object is felt, else thin and white.
 void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& film, double thin_px,
                   Sheet& sheet) {
   const Eigen::AlignedBox2d box = box_px(object, film);

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns an empty text when the plugins are in neither folder.
+/// Returns an empty string when the plugins are in neither folder.
 std::string folder_of(const std::vector<std::string>& names) {
   for (const fs::path& folder : {own_file().parent_path(), installed(SPIDAR_PLUGIN_DIR)}) {
     const bool has_all = std::all_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -36,7 +36,7 @@ bool has_all(const std::vector<std::string>& names) {
   });
 }
 
-/// GStreamer ignores GST_PLUGIN_PATH when the other variable exists, even if it is empty.
+/// GStreamer ignores GST_PLUGIN_PATH if GST_PLUGIN_PATH_1_0 exists, even if that is empty.
 const char* path_variable() {
   return g_getenv("GST_PLUGIN_PATH_1_0") ? "GST_PLUGIN_PATH_1_0" : "GST_PLUGIN_PATH";
 }
@@ -46,7 +46,7 @@ void search_first(const std::string& folder, const std::vector<std::string>& nam
   const std::string path = before && *before ? folder + ":" + before : folder;
   g_setenv(path_variable(), path.c_str(), TRUE);
   GstRegistry* const registry = gst_registry_get();
-  for (const std::string& name : names) {  // a plugin that was found first stays
+  for (const std::string& name : names) {  // otherwise one that was found first stays
     const Ref<GstPlugin> older(gst_registry_find_plugin(registry, name.c_str()));
     if (older) gst_registry_remove_plugin(registry, older.get());
   }

@@ -11,7 +11,7 @@ namespace spidar {
 
 /// Where there is no graphics card, OpenGL draws on the processor: a picture of 1080 lines
 /// takes 2.8 times as long as with ximagesink (user time of 40 of them on Xvfb), too long for a
-/// film, which then stands still. After this call, which must come before gst_init(), players do
+/// film, which then stalls. After this call, which must come before gst_init(), players do
 /// not choose glimagesink. Returns a text for the user; empty when nothing was changed, as when the
 /// user has set the ranks of the sinks.
 inline std::string avoid_software_gl() {

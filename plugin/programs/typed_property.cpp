@@ -13,7 +13,7 @@
 namespace spidar {
 namespace {
 
-constexpr int kDigits = 15;  // those of a double that do not depend on how it is stored
+constexpr int kDigits = 15;  // decimal digits that every double keeps
 
 template <typename Number>
 std::string range(const char* kind, Number least, Number most) {
@@ -47,7 +47,7 @@ std::string values_of(GParamSpec* property) {
   return "one of those that gst-inspect-1.0 spidarmotion lists";
 }
 
-/// The description of a number contains its unit.
+/// Returns the description of a numeric property, which contains its unit.
 std::string unit(GParamSpec* property) {
   const GType type = G_PARAM_SPEC_VALUE_TYPE(property);
   const bool number = type == G_TYPE_DOUBLE || type == G_TYPE_INT64;

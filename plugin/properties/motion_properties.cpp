@@ -15,8 +15,8 @@ namespace {
 
 using MotionRow = Property<MotionProperties>;
 
-/// A text that `parse` reads. A text that is `neither` of the accepted ones leaves the property as
-/// it was, with a warning, as in GObject.
+/// A property whose text `parse` reads. A text that it rejects leaves the value unchanged and is
+/// reported by a warning with the text `neither`, as in GObject.
 template <typename Value>
 MotionRow parsed(PropertyNames n, std::optional<Value> (*parse)(const std::string&),
                  Value (*get)(const MotionProperties&),
@@ -292,7 +292,7 @@ std::optional<Pointer> parse_pointer(const std::string& text) {
     pointer.kind = text == "grip" ? Pointer::Kind::kGrip : Pointer::Kind::kMouse;
     return pointer;
   }
-  // The locale does not matter.
+  // g_ascii_strtod() ignores the locale.
   gchar* end = nullptr;
   const double x = g_ascii_strtod(text.c_str(), &end);
   if (end == text.c_str() || *end != ',') return std::nullopt;

@@ -63,8 +63,8 @@ struct Pointer {
 
 /// The settings that are read again for each frame.
 struct FrameSettings {
-  /// In the settings of the element, its pointer is the fixed one. In those of a frame, the pointer
-  /// is a position in the frame before it is turned, and rules, boxes and the click are there.
+  /// In the settings of the element, the pointer is the fixed one. In the settings of a frame, the
+  /// pointer is a position in the frame before it is turned, and rules, boxes and click are set.
   AnalyzerSettings analyzer;
   Pointer::Kind pointer = Pointer::Kind::kFixed;
   OnDeviceError on_device_error = OnDeviceError::kWarn;

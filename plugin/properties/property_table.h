@@ -32,7 +32,7 @@ inline GQuark analysis_mark() {
   return g_quark_from_static_string("spidar-analysis");
 }
 
-/// Where the settings of an element keep a property: KEPT_IN(analyzer.axes.depth).
+/// Accesses the member of the settings that stores a property: KEPT_IN(analyzer.axes.depth).
 #define KEPT_IN(member)         \
   [](auto& settings) -> auto& { \
     return settings.member;     \
@@ -66,7 +66,7 @@ struct PropertyNames {
   const char* blurb;
 };
 
-/// A row. `Settings` is where the element keeps its properties; a new Settings has the defaults.
+/// A row of the table. `Settings` stores the properties of an element; a new one has the defaults.
 template <typename Settings>
 struct Property {
   std::function<GParamSpec*(const Settings& defaults)> spec;
@@ -189,7 +189,7 @@ class PropertyTable {
   std::vector<Property<Settings>> rows_;
 };
 
-/// What a change of a property does besides storing it, for parts that do not read the settings.
+/// An action after a change of a property, for parts that do not read the settings.
 template <typename Element>
 struct PropertyEffect {
   const char* property;

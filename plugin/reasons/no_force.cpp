@@ -128,7 +128,7 @@ bool objects_move(const Frame& frame) {
   });
 }
 
-/// Whether nothing was felt in the whole interval and no frame was due in it.
+/// Whether nothing was felt for kWindow_ns and the loop has no wrench for this moment.
 bool is_late(const LoopSnapshot& loop) {
   return loop.unfelt_ns >= NoForceHistory::kWindow_ns &&
          (loop.last.found == Found::kExpired || loop.last.found == Found::kNothing);
@@ -232,7 +232,7 @@ NoForceReason NoForceHistory::reason(int64_t now_ns) const noexcept {
       ++pictures[static_cast<size_t>(frame.reason)];
     }
   }
-  // A picture without a comparison says nothing where other pictures do.
+  // Pictures without a comparison count only if there are no others.
   size_t& incomparable = pictures[static_cast<size_t>(NoForceReason::kNothingToCompare)];
   const bool any_incomparable = incomparable > 0;
   incomparable = 0;

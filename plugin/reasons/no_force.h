@@ -18,8 +18,8 @@
 namespace spidar {
 
 /// Why nothing is felt: the reason why the force is below kFeltForce_N, or is lowered
-/// (kGripReleased, kVibration). The reasons up to kEnded and those from kCannotTouch on are of the
-/// device, the playback or, while touching, the contact, and hold for any film.
+/// (kGripReleased, kVibration). The reasons up to kEnded and those from kCannotTouch on concern the
+/// device, the playback or, while touching, the contact, whatever the film is.
 enum class NoForceReason {
   kNone,  ///< there is a force
   kDeviceLost,
@@ -79,8 +79,8 @@ class NoForceHistory {
   /// Older frames are dropped. The capacity is a second at 60 frames/s and 16 s of waiting frames.
   static constexpr size_t kFrames = 1024;
 
-  /// Adds a frame that is shown at `shown_ns`, with the magnitude of its force. Earlier added
-  /// frames that are shown no earlier are dropped.
+  /// Adds a frame that is shown at `shown_ns`, with the magnitude of its force. Drops stored
+  /// frames that are shown at that time or later.
   void add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept;
 
   /// The reason for the frames shown in the second up to `now_ns`: kNone when one of them has a
@@ -114,9 +114,9 @@ class NoForceWatch {
   /// Adds a frame that the sink shows at the running time `shown_ns`, with its wrench, and the
   /// reason for one that is too weak to feel.
   void add(int64_t shown_ns, const Wrench& wrench, NoForceReason reason);
-  /// Tells that no frames follow the last one, until another one is added.
+  /// Marks the newest frame as the last one, until another one is added.
   void end();
-  /// Tells that running time begins anew.
+  /// Call this when running time restarts.
   void reset();
   void set_muted(bool muted) { muted_ = muted; }
   /// While the picture is touched, the hand feels the contact, not the film.

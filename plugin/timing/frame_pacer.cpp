@@ -55,7 +55,7 @@ FramePacer::Order FramePacer::order(int64_t running_ns, const GstVideoFrame& fra
   if (GST_BUFFER_IS_DISCONT(frame.buffer) && segment.rate > 0) return Order::kFirst;
   if (last_running_ns_ >= 0 && running_ns >= last_running_ns_ &&
       running_ns - last_running_ns_ < least_interval_ns(frame.info, segment.rate)) {
-    // After an accurate seek, hardly any of the first frame may remain, and no earlier segment.
+    // After an accurate seek, the segment may contain hardly any of its first frame.
     return frames_in_segment_ > 1 ? Order::kTooSoon : Order::kFirst;
   }
   return running_ns < last_running_ns_ ? Order::kFalling : Order::kNext;

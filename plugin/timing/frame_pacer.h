@@ -64,12 +64,12 @@ class FramePacer {
   /// `rate_multiplier` is InstantRate::multiplier().
   PacedTime at(int64_t running_ns, double rate_multiplier) const;
 
-  /// Tells that a frame was analysed; `moved`: with a motion since the previous frame.
+  /// Call this after a frame was analysed. `moved`: it has a motion since the previous frame.
   void push(const PacedTime& time, bool moved);
-  /// Tells that a frame without a picture has passed.
+  /// Call this for a frame without a picture.
   void advance(const PacedTime& time);
   void begin_segment() { frames_in_segment_ = 0; }
-  /// Tells that running time begins anew.
+  /// Call this when running time restarts.
   void reset();
 
   bool has_frame() const { return last_running_ns_ >= 0; }

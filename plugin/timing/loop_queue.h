@@ -169,7 +169,7 @@ class WrenchBacklog : public LoopQueue<TimedWrench> {
     const std::lock_guard<std::mutex> lock(mutex_);
     return skipped_ns_;
   }
-  /// A sink that has stepped is in time with a new segment again.
+  /// Call this at a new segment: a sink that has stepped is then in time again.
   void begin_segment() {
     const std::lock_guard<std::mutex> lock(mutex_);
     skipped_before_ns_ = skipped_ns_;

@@ -37,7 +37,7 @@ std::optional<GstClockTimeDiff> offset_of_waiting(GstElement* element) {
   return offset_ns;
 }
 
-/// The latency of the live sources, as such an element queries it; 0 without live sources.
+/// The latency of the live sources, as a waiting element queries it; 0 without live sources.
 GstClockTimeDiff latency_before(GstPad* sink_pad) {
   const Ref<GstQuery> query(gst_query_new_latency());
   gboolean live = FALSE;

@@ -37,7 +37,7 @@ class PresentationDelay {
   void follow(GstElement* element);
   void reset();
 
-  /// Takes the latency of the LATENCY event, which counts where no waiting element is found.
+  /// Sets the latency from the LATENCY event, which is used if no waiting element is found.
   void set_latency(GstClockTime latency);
 
   /// The present delay in ns; > 0: frames are shown later.
@@ -69,7 +69,7 @@ class PlaybackFollower {
   void set_offset(GstClockTimeDiff offset_ns);
   /// Sets the running time that the sink has stepped over: it shows later frames that much earlier.
   void set_skipped(int64_t skipped_ns);
-  /// Tells that links behind the element have changed.
+  /// Call this when links behind the element have changed.
   void look_for_sink();
   void expect_base_time();
   /// Reads the pipeline's clock now, as the thread does regularly.

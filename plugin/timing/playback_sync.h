@@ -36,7 +36,7 @@ class PlaybackSync {
     reset_clock();
   }
 
-  /// Tells that running time has begun anew (flushing seek): the element's base time is outdated
+  /// Call this when running time restarts (flushing seek): the element's base time is outdated
   /// until the pipeline has prerolled and distributes another one. Until then nothing is on the
   /// screen. A sink that does not preroll keeps its base time, which counts again after 3 s.
   void expect_base_time(GstElement* element) {
@@ -93,7 +93,7 @@ class PlaybackSync {
   static constexpr size_t kEnough = 16;
   /// A reading further than this from the line is not jitter.
   static constexpr int64_t kJump_ns = 5 * 1000 * 1000;
-  /// So many such readings in a row mean another clock or a step in it. Fewer come from a sound
+  /// This many such readings in a row mean another clock or a step in it. Fewer come from a sound
   /// card's clock in the middle of an update: the clock stands still while the thread that feeds
   /// the card is preempted.
   static constexpr int kLastingJump = 5;

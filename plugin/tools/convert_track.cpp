@@ -78,8 +78,8 @@ std::string lost_in_funscript(const tracks::Summary& summary, const SaveOptions&
   return line_of(lost);
 }
 
-/// What save_track() with the same options has lost of a track, in whole lines: "lost: fx up to 1.2
-/// N, steps of fy below 0.2 N". Empty for formats that hold all six channels.
+/// Returns what save_track() with the same options loses of a track, as whole lines: "lost: fx up
+/// to 1.2 N, steps of fy below 0.2 N". Empty for formats that hold all six channels.
 std::string lost_in(const std::string& path, const tracks::Summary& summary,
                     const SaveOptions& options) {
   if (ends_with(path, ".ahap")) return lost_in_ahap(summary, options.gain);
@@ -87,7 +87,7 @@ std::string lost_in(const std::string& path, const tracks::Summary& summary,
   return "";
 }
 
-/// The channel that changes most, as a fraction of its full scale.
+/// The channel with the largest rms value, as a fraction of its full scale.
 size_t liveliest_channel(const tracks::Summary& summary) {
   size_t most = kUsualAxis;
   for (size_t i = 0; i < kTrackChannels; ++i) {

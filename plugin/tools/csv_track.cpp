@@ -37,9 +37,9 @@ const Quantity kTorque = {kTrackTorqueScale_Nm,
 const Quantity& quantity_of(size_t column) {
   return column == 0 ? kTime : column <= kTrackChannels / 2 ? kForce : kTorque;
 }
-/// A time that was rounded to a microsecond may be as much before its sample.
+/// A time that was rounded to a microsecond may precede its sample by this much.
 constexpr double kRounding_ms = 1e-3;
-/// No film is longer: a later time is one of the day, of a machine, or in another unit.
+/// No film is longer: a later time is a time of day, the uptime of a machine, or in another unit.
 constexpr double kLongest_ms = 24.0 * 3600 * 1000;
 /// Larger values fit into no format with a range of its own (kMinGain).
 constexpr double kLargest = 1 / kMinGain;
@@ -119,7 +119,7 @@ class CsvReader {
     return false;
   }
 
-  /// Learns from the first line how the table is written. Returns whether this line has names.
+  /// Detects the format of the table from its first line. Returns whether this line has names.
   bool learn() {
     for (const char separator : separators_) {
       separator_ = separator;
@@ -172,7 +172,7 @@ class CsvReader {
     if (unit.empty()) return 1;
     std::string known;
     for (const auto& [name, size] : quantity_of(column).units) {
-      // As in FX_N and TZ_NM; but MN is not mN.
+      // Ignore case, as in FX_N and TZ_NM, but do not take MN for mN.
       const bool is_mega = column > 0 && unit[0] == 'M';
       if (g_ascii_strcasecmp(name.c_str(), unit.c_str()) == 0 && !is_mega) return size;
       known += (known.empty() ? "" : ", ") + name;

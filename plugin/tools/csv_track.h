@@ -8,8 +8,8 @@
 
 namespace spidar::tools {
 
-/// Reads a haptic track from CSV: gives 1000 samples a second of the table in the file `path`. The
-/// samples lie on straight lines from row to row, of which some may have the same time, and are
+/// Reads a haptic track from the CSV file `path` and passes 1000 samples a second to `take`. The
+/// values are interpolated linearly between the rows, of which some may have the same time, and are
 /// zero before the first row.
 ///
 /// The first line, or a comment before it (# or %), names the columns: time or t, and fx fy fz tx

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Takes both names without following links, because a browser does not follow them either.
+/// Does not resolve links in the two paths, because a browser does not resolve them either.
 std::string relative_url(const fs::path& film, const fs::path& page) {
   const fs::path folder = fs::absolute(page).lexically_normal().parent_path();
   const fs::path path = fs::absolute(film).lexically_normal().lexically_relative(folder);
@@ -53,7 +53,7 @@ bool has_subtitles_beside(const fs::path& film) {
   return false;
 }
 
-/// Gives the bytes of a file in pieces, from its beginning.
+/// Passes the bytes of a file to `take` in pieces, from its beginning.
 void read_file(const std::string& path, size_t at_once,
                const std::function<void(const std::string&)>& take) {
   FileBytes file(path);
@@ -101,7 +101,7 @@ class ExportedFilm {
     place_arrow();
   }
 
-  /// Writes a page that plays the film from its place.
+  /// Writes a page that plays the film where it is stored.
   void write_page(PartFile& page) {
     const std::string html = this->html(relative_url(film_, page.target()), film_, 0, unplayed_);
     page.write(html);
@@ -137,7 +137,7 @@ class ExportedFilm {
     tell(page.target(), html, "; with the film in it" + missing);
   }
 
-  /// Writes a folder with the page and the film, which needs nothing else.
+  /// Writes a self-contained folder with the page and the film.
   void write_folder(PartFile& page) {
     PartFile& film = *copy_;
     std::string missing;
@@ -182,7 +182,7 @@ class ExportedFilm {
     }
   }
 
-  /// Reports the next part of the work.
+  /// Returns a function that reports the progress of the next part of the work.
   std::function<void(int percent)> next_part() {
     const int done = parts_done_++;
     return [this, done](int percent) {
@@ -214,7 +214,7 @@ class ExportedFilm {
     return html.text;
   }
 
-  /// Returns what is missing, for the end of the line.
+  /// Converts the film. Returns why, and what is missing, for the end of the line.
   std::string convert(const PartFile& part) {
     try {
       const std::string missing = encode_film(film_, "", "flip", {}, part, next_part()).missing;

@@ -59,9 +59,9 @@ std::string to_file(const PartFile& part) {
          " name=mux ! fdsink sync=false fd=" + std::to_string(part.descriptor());
 }
 
-/// A probe for buffers that delays a frame with the time of the last frame, which is the user data,
-/// to the end of that frame. Some decoders give two frames the same time, such as that of MPEG-4 in
-/// AVI for frames that are stored in another order; MP4 does not allow that.
+/// A buffer probe that delays a frame with the time of the last frame (the user data) to the end of
+/// that frame. Some decoders give two frames one time, such as that of MPEG-4 in AVI for frames
+/// stored in another order; MP4 does not allow that.
 GstPadProbeReturn order_frame(GstPad*, GstPadProbeInfo* info, gpointer user) {
   GstClockTime& last = *static_cast<GstClockTime*>(user);
   auto* frame = GST_PAD_PROBE_INFO_BUFFER(info);
@@ -94,14 +94,14 @@ std::string format_of(const GstCaps* caps) {
   return gst_structure_get_name(gst_caps_get_structure(caps, 0));
 }
 
-/// Whether the text may have Pango's marks.
+/// Whether the text may contain Pango markup.
 bool is_marked(GstCaps* caps) {
   const Ref<GstCaps> plain(gst_caps_from_string(kPlainText));
   return format_of(caps) == "text/x-raw" && !gst_caps_is_subset(caps, plain.get());
 }
 
-/// Removes Pango's marks, such as `<i>` and `&amp;`. A parser does not serve: GStreamer passes a
-/// text of Matroska on unchanged, with "<i>" and with a plain "&".
+/// Removes Pango markup, such as `<i>` and `&amp;`. A parser would fail: GStreamer passes text from
+/// Matroska on unchanged, with "<i>" and with a plain "&".
 std::string without_marks(const std::string& marked) {
   static const std::regex mark("</?[A-Za-z][^<>]*>");
   std::string plain = std::regex_replace(marked, mark, "");
@@ -116,8 +116,8 @@ std::string without_marks(const std::string& marked) {
   return plain;
 }
 
-/// Writes each ampersand that begins no name as one. Matroska's demuxer says of any text that it
-/// has Pango's marks, and Pango refuses a plain ampersand.
+/// Escapes each ampersand that does not begin an entity. matroskademux declares any text as Pango
+/// markup, and Pango rejects a plain ampersand.
 std::string with_names(const std::string& marked) {
   static const std::regex kAlone("&(?!(amp|lt|gt|quot|apos|#[0-9]+|#x[0-9a-fA-F]+);)");
   return std::regex_replace(marked, kAlone, "&amp;");
@@ -141,7 +141,7 @@ GstPadProbeReturn replace_text(GstPad*, GstPadProbeInfo* info, gpointer) {
   return GST_PAD_PROBE_OK;
 }
 
-/// Keeps every sound and all subtitles of a film that is encoded anew. AAC and MP3 are copied,
+/// Keeps every sound and all subtitles of a film that is re-encoded. AAC and MP3 are copied,
 /// other sound becomes AAC; text subtitles stay text, without styles. Outlives the pipeline.
 class KeptStreams {
  public:
@@ -181,7 +181,7 @@ class KeptStreams {
               " left out: GStreamer has no decoder of " + format_of(caps));
   }
 
-  /// This signal means that all streams are known, and none of them flows yet.
+  /// Called at no-more-pads: all streams are known, and none of them flows yet.
   static void choose(GstElement* decoder, gpointer user) {
     auto& self = *static_cast<KeptStreams*>(user);
     const Ref<GstElement> overlay(gst_bin_get_by_name(GST_BIN(self.pipeline_), "subtitles"));

@@ -10,16 +10,16 @@
 
 namespace spidar::tools {
 
-/// Remarks on a film that was encoded anew.
+/// Remarks on a re-encoded film.
 struct EncodedFilm {
   std::string felt, remark;  ///< see FilmWatch, if the film passes a spidarmotion
   std::string missing;       ///< see KeptStreams
 };
 
-/// Plays `film` through `elements`, from upright raw pictures to raw pictures, each with a "!"
-/// behind it, and writes the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with
-/// the sound and the subtitles of the film. The element `last`, or the turning "flip" before all,
-/// gets `properties`; there, `tell`, which is that of FilmProgress, counts frames. Throws
+/// Plays `film` through `elements`, each followed by "!", from upright raw pictures, and writes
+/// the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with the sound and the
+/// subtitles of the film. The element named `last` (one of these, or "flip", which is before them)
+/// gets `properties`, and its frames give the progress for `tell`, see FilmProgress. Throws
 /// std::runtime_error; it names the package to install when GStreamer has no encoder of H.264.
 EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
                         const RecordProperties& properties, const PartFile& part,

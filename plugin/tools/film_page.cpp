@@ -22,7 +22,7 @@
 namespace spidar::tools {
 namespace {
 
-/// Upright, as a browser shows the film.
+/// Turns the film upright, as a browser shows it.
 constexpr const char* kMeasuredFilm =
     "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
     "videoflip video-direction=auto ! spidarmotion name=motion device=none attach-meta=true ! "
@@ -68,7 +68,7 @@ std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string&
 
 namespace {
 
-constexpr int kZero = 128, kSteps = 127;  // of a value in a byte
+constexpr int kZero = 128, kSteps = 127;  // the byte for 0, and the steps from 0 to 1
 
 /// Encodes a curve for curveOf() of the page.
 std::string curve_text(const std::vector<float>& values, double tolerance, double most) {

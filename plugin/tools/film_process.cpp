@@ -209,7 +209,7 @@ struct Sockets {
   int ends[2] = {-1, -1};
 };
 
-/// Returns when the process has ended. Throws std::runtime_error, unless it ended by itself.
+/// Waits until the process has ended. Throws std::runtime_error if a signal has ended it.
 void await_end(pid_t process) {
   int status = 0;
   rusage used{};
@@ -263,11 +263,11 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
 // --- the process of a film
 
 void say(int socket, const Json& answer) {
-  if (!send_message(socket, answer)) _exit(kFailed);  // nobody waits for it
+  if (!send_message(socket, answer)) _exit(kFailed);  // the parent is gone
 }
 
-/// The statements of the track about itself: duration_s, felt (the fraction of the time with a
-/// force that can be felt), largest_force_N, fingerprint and settings.
+/// Summarises a track: duration_s, felt (the fraction of the time with a force that can be felt),
+/// largest_force_N, fingerprint and settings.
 Json summary_of(const std::string& track) {
   tracks::Summariser summariser;
   const TrackCondition condition =
@@ -300,7 +300,7 @@ FilmResult compare(const std::string& film, const std::string& track, const std:
   return result;
 }
 
-/// Reads the number of a descriptor, which no child of this process inherits.
+/// Parses the number of a descriptor, and prevents children from inheriting the descriptor.
 int number_of_descriptor(const char* text) {
   const int descriptor = std::atoi(text);
   if (descriptor >= 0) fcntl(descriptor, F_SETFD, FD_CLOEXEC);

@@ -88,7 +88,7 @@ GstPadProbeReturn FilmWatch::decoded(GstPad*, GstPadProbeInfo* info, gpointer us
   return GST_PAD_PROBE_OK;
 }
 
-/// This signal means that all streams are known.
+/// Called at no-more-pads: all streams are known.
 void FilmWatch::choose(GstElement* decoder, gpointer user) {
   auto& self = *static_cast<FilmWatch*>(user);
   const Ref<GstPad> into(gst_element_get_static_pad(self.convert_, "sink"));

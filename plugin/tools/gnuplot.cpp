@@ -51,7 +51,7 @@ int run(int in, int out, int errors) {
   return status;
 }
 
-/// Begins with a colon; empty if there is no line.
+/// Returns the last line that is not blank, after a colon; empty if there is none.
 std::string last_line(FILE* file) {
   std::rewind(file);
   std::string last;
@@ -64,7 +64,7 @@ std::string last_line(FILE* file) {
   return last;
 }
 
-/// gnuplot reports no error when the disk is full.
+/// Whether the file ends as a PNG does. gnuplot reports no error when the disk is full.
 bool is_whole_png(int descriptor) {
   constexpr char kEnd[] = "\0\0\0\0IEND\xAE\x42\x60\x82";
   char end[sizeof kEnd - 1] = {};

@@ -43,8 +43,8 @@ struct RecordedFilm {
   throw std::runtime_error("the manifest " + path + " cannot be written: " + output_reason(errno));
 }
 
-/// A line of JSON for the manifest, without the end of the line. Unless the film failed, the line
-/// has the statements of the track about itself.
+/// Returns a line of JSON for the manifest, without a newline. Unless the film failed, the line
+/// contains the summary of the track.
 std::string manifest_line(const RecordedFilm& film) {
   Json line = {{"film", film.film},
                {"result", film.result},
@@ -56,8 +56,8 @@ std::string manifest_line(const RecordedFilm& film) {
   return json_text(line);
 }
 
-/// Whether the first line is one of manifest_line(). A pipe, or a device, has none, and
-/// open_output() knows which links may be followed.
+/// Whether the file is new, or its first line is one of manifest_line(). Also accepts a pipe or a
+/// device, which has no lines, and a link, which open_output() checks.
 bool is_new_or_manifest(const std::string& path) {
   std::error_code none;
   if (std::filesystem::is_symlink(path, none) || !std::filesystem::is_regular_file(path, none) ||
@@ -126,7 +126,7 @@ class FilmBatch {
         workers.emplace_back([this] { work(); });
       }
     } catch (const std::system_error&) {
-      // The system gives no more threads, so the present ones take longer.
+      // The system refuses more threads; continue with those that have started.
     }
     work();
     for (std::thread& worker : workers) worker.join();
@@ -151,7 +151,7 @@ class FilmBatch {
     return paths;
   }
 
-  /// Nothing searches tracks in a folder that nobody has named.
+  /// Prints how players find the tracks in the folder, if they do not search there already.
   void tell_where() {
     if (options_.folder.empty() || options_.films.empty()) return;
     std::error_code none;
@@ -199,7 +199,7 @@ class FilmBatch {
         if (film->is_elsewhere) std::this_thread::sleep_for(kLook);
         if (finish(film->index)) continue;
         if (!film->is_elsewhere) report_.note(film->index, "another process is recording it");
-        // All others come first.
+        // Try this film again after all others.
         const std::lock_guard<std::mutex> lock(mutex_);
         waiting_.push_back({film->index, true});
       } catch (const std::exception& error) {
@@ -216,7 +216,7 @@ class FilmBatch {
     make_subfolder(index);
     const std::unique_ptr<PartFile> part = PartFile::claim(track, {options_.force, {}});
     if (!part) return false;
-    if (is_done(index, track)) return true;  // in the meantime
+    if (is_done(index, track)) return true;  // finished in the meantime
     report_.progress(index, 0);
     const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
     const auto tell = [&](int percent) { report_.progress(index, percent); };
@@ -237,7 +237,7 @@ class FilmBatch {
             !options_.manifest.empty()};
   }
 
-  /// The folder itself exists, unless it has gone since.
+  /// Makes the subfolder of a film, unless the folder itself has disappeared.
   void make_subfolder(size_t index) const {
     const fs::path& subfolder = options_.films[index].subfolder;
     if (options_.folder.empty() || subfolder.empty() || !fs::is_directory(options_.folder)) return;

@@ -185,7 +185,7 @@ RecordProperties parse_record_properties(const std::vector<std::string>& words, 
   } catch (const std::runtime_error& error) {
     throw UsageError(error.what());
   }
-  // Mean velocities have another default.
+  // With motion=mean, alpha has another default.
   const auto motion = settings.find("motion");
   if (!alpha.empty() && motion != settings.end() && motion->second == "mean") {
     settings["alpha"] = alpha;

@@ -28,13 +28,13 @@ RecordProperties with_rules(const RecordProperties& properties, const std::strin
 /// std::runtime_error when GStreamer has no spidarmotion.
 RecordProperties parse_record_properties(const std::vector<std::string>& words, size_t films);
 
-/// The properties that the settings of a track state. Throws as parse_record_properties() does.
+/// Parses the settings that a track states. Throws as parse_record_properties() does.
 RecordProperties properties_of(const std::string& settings);
 
-/// Throws UsageError with the right line in place of one that names the track of `film`.
+/// Throws UsageError with the right command line: `output` is the track of `film`, not a film.
 [[noreturn]] void refuse_output(const std::string& film, const std::string& output);
 
-/// Throws UsageError for a property in place of a film: `command` is the text before the dashes.
+/// Throws UsageError if `film` is a property; `command` is the text before the dashes.
 void expect_no_property(const std::string& film, const std::string& command);
 
 struct RecordOptions {

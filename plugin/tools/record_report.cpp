@@ -17,7 +17,7 @@ constexpr std::chrono::seconds kTellEvery{10};
 /// An estimate from less work is too uncertain.
 constexpr double kMinWork_s = 2;
 
-/// A name may contain line breaks, or commands for the terminal.
+/// Replaces control characters: a name may contain line breaks or terminal escape sequences.
 std::string one_line(std::string text) {
   for (char& c : text) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
@@ -31,7 +31,7 @@ size_t width_of_terminal() {
   return known ? size.ws_col : 80;
 }
 
-/// Shortens to at most `bytes`, and not within a character.
+/// Shortens UTF-8 to at most `bytes`, without splitting a character.
 std::string shortened(std::string text, size_t bytes) {
   if (text.size() <= bytes) return text;
   while (bytes > 0 && (static_cast<unsigned char>(text[bytes]) & 0xC0) == 0x80) --bytes;

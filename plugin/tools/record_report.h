@@ -15,8 +15,8 @@ namespace spidar::tools {
 
 /// The output of `spidartrack record` about a batch of films. Prints a line for each film when it
 /// is done, and at the end how many were recorded. A terminal has a line below with the films in
-/// work and the time that is left; elsewhere, this line is printed every ten seconds. The time is
-/// estimated by the sizes of the files. Any thread.
+/// progress and the time that is left; elsewhere, this line is printed every ten seconds. The time
+/// is estimated from the sizes of the files. Any thread.
 class RecordReport {
  public:
   explicit RecordReport(std::vector<std::string> films);

@@ -32,7 +32,7 @@ using namespace spidar::tools;
 /// The command line. The run() of each command is called when the command is parsed.
 class CommandLine {
  public:
-  /// `descriptors` is how many the program may have open.
+  /// `descriptors` is the number of descriptors that the program may have open.
   explicit CommandLine(rlim_t descriptors) : descriptors_(descriptors) {
     app_.set_help_flag("-h,--help", "Explain the program or the command, and end");
     app_.set_version_flag("--version", "spidartrack " SPIDAR_VERSION, "Print the version, and end");
@@ -111,8 +111,8 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
   }
   int record() {
     if (!to_.empty()) refuse_output(films_.front(), to_);
-    // Of a film, the part file and both sockets of its process are open, and one more while a file
-    // or folder beside it is read; besides them, the manifest and what libraries open.
+    // Each film needs its part file, two sockets for its process, and one descriptor while a file
+    // or folder beside it is read. The others are for the manifest and the libraries.
     constexpr rlim_t kOfFilm = 4, kOthers = 32;
     const rlim_t films = std::max(descriptors_, kOthers + kOfFilm) - kOthers;
     record_.jobs = static_cast<unsigned>(std::min<rlim_t>(record_.jobs, films / kOfFilm));
@@ -136,7 +136,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
         ->type_name("FOLDER");
   }
 
-  /// Names the folder for every search of a track.
+  /// Adds the folder to kTrackPathVariable, for every search of a track.
   void search_folder() const {
     if (track_folder_.empty()) return;
     const char* const others = secure_getenv(kTrackPathVariable);
@@ -252,7 +252,7 @@ Properties of spidarmotion that change the force, and preset=NAME, come last, af
                      with_rules(parse_record_properties(properties_, 1), film_));
   }
 
-  /// Refuses properties without dashes, and unknown words.
+  /// Throws for properties before the dashes, and for unknown words.
   void refuse_misplaced(const std::string& command) const {
     for (const std::string& word : misplaced_) expect_no_property(word, command);
     if (!misplaced_.empty()) throw CLI::ExtrasError(misplaced_);

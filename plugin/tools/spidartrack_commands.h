@@ -33,7 +33,7 @@ struct ExportOptions {
   bool embed = false;  ///< puts the film into the page
 };
 
-/// Gives a file its name, and prints the remark of PartFile::publish().
+/// Publishes a part file, and prints the remark of PartFile::publish().
 inline void publish(PartFile& part) {
   const std::string more = part.publish();
   if (!more.empty()) std::cerr << part.target() << ": " << more << '\n';

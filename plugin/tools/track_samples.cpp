@@ -71,7 +71,7 @@ std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns
   return block.samples[static_cast<size_t>((time_ns - block.begin_ns) / kTrackPeriod_ns)];
 }
 
-/// Gives 1000 samples a second, and returns the end of the track.
+/// Passes 1000 samples a second to `take`, and returns the end of the track.
 int64_t give_samples(tracks::OpenTrack& track, const SampleSource::Take& take) {
   TrackReader reader;
   TrackBlock block;

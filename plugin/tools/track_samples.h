@@ -60,7 +60,7 @@ constexpr size_t kUsualAxis = 1;
 /// Throws std::runtime_error for a single picture.
 bool has_track(const std::string& path);
 
-/// Gives the samples of a track, or of a film with a track (has_track()), in their order; for a
+/// Passes `take` the samples of a track, or of a film with a track (has_track()), in order; for a
 /// film, the track is the file `track` unless that is empty. The format follows from the end of the
 /// name: HJIF (`.hjif`), one channel (`.funscript`), else sound of any rate that spidarsink
 /// accepts, which keeps its rate. Gaps become silence, and so do samples that are not numbers,
@@ -79,7 +79,7 @@ struct SaveOptions {
   tracks::Notes notes;       ///< for sound
 };
 
-/// Throws std::runtime_error when no file whose name ends like this can be written.
+/// Throws std::runtime_error when files with the extension of `path` cannot be written.
 void check_format(const std::string& path);
 
 /// Fills `part`, whose format follows from the end of the name that it will have: `.flac`, `.wav`,

@@ -102,7 +102,7 @@ class TrackOfFile : public OpenTrack {
     is_open_ = true;
   }
   ~TrackOfFile() override {
-    blocks_->stop();  // before what its streaming threads use
+    blocks_->stop();  // wakes the streaming threads, for which file_.stop() waits
     file_.stop();
   }
   TrackOfFile(const TrackOfFile&) = delete;
@@ -148,7 +148,7 @@ class TrackOfFile : public OpenTrack {
                                           GST_OBJECT(element), gst_structure_new_empty("enough")));
   }
 
-  /// Ends reading before the end of the file.
+  /// Stops reading before the end of the file, because of `error`.
   void fail(GstElement* element, const std::string& error) {
     blocks_->end(error);
     stop_waiting(element);
@@ -210,7 +210,7 @@ class TrackOfFile : public OpenTrack {
     return gone ? 0 : bytes;
   }
 
-  /// Returns why a pass has not ended where the file ended when it was opened, or an empty text.
+  /// Returns why a pass has not ended where the file ended when it was opened, or an empty string.
   /// The demuxers do not report that.
   std::string why_short() const {
     if (!is_open_) return {};  // missing() reports this
@@ -278,7 +278,7 @@ class TrackOfFile : public OpenTrack {
   Ref<GstPad> pad_;
   Notes notes_;
   std::atomic<bool> is_chosen_{false}, has_sound_{false};
-  std::atomic<int> ended_{0};  ///< number of streams
+  std::atomic<int> ended_{0};  ///< number of streams that have ended
   // Streaming thread.
   Input input_;
   Ref<GstCaps> caps_;

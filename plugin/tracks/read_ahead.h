@@ -21,8 +21,8 @@ inline int64_t end_of(const TrackBlock& block) {
   return block.begin_ns + block.duration_ns;
 }
 
-/// A few seconds of a track, between the thread that reads its file and the one that plays it. The
-/// file is read from one position to the next: a pass. Each seek() begins another one.
+/// A queue with a few seconds of a track, between the thread that reads its file and the one that
+/// plays it. A pass reads the file from one position on; each seek() begins another pass.
 class ReadAhead {
  public:
   /// How far the file is read ahead of playing: longer than a disk takes to start.
@@ -35,14 +35,14 @@ class ReadAhead {
   /// Waits until the queue has space and adds the block. Blocks before the sought position, and
   /// those whose times do not rise, are left out. Returns false when this pass has ended.
   bool put(const TrackBlock& block, const tracks::Faults& faults);
-  /// Tells that the file ends here, with an `error` if it should not. Ignored when nothing more of
-  /// this pass is wanted.
+  /// Call this at the end of the file, with an `error` if the file should not end there. Ignored
+  /// when nothing more of this pass is wanted.
   void end_pass(const std::string& error);
-  /// Tells that the file cannot be read further. The first error counts.
+  /// Call this when the file cannot be read further. Only the first error is kept.
   void end(const std::string& error);
   /// Waits for a seek(), whose position it returns; nothing after stop().
   std::optional<int64_t> await_seek();
-  /// Tells that blocks come from the position that await_seek() returned last.
+  /// Call this before adding blocks from the position that await_seek() returned last.
   void begin_pass();
 
   // --- the thread that plays
@@ -53,8 +53,8 @@ class ReadAhead {
     kLate  ///< the block has not been read yet
   };
 
-  /// The film shows everything `later_ns` later than the file says. To call before the first
-  /// take().
+  /// Adds `later_ns` to all times: the film shows everything that much later than the file says.
+  /// Call this before the first take().
   void set_later(int64_t later_ns);
   /// Seeks: the next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
@@ -89,7 +89,7 @@ class ReadAhead {
   int64_t later_ns_ = 0;
   int64_t sought_ns_ = 0;        ///< in the file
   int64_t last_ns_ = INT64_MIN;  ///< begin of the last block of this pass
-  // Passes: that of the arriving blocks, of the seek in work, and of the last seek().
+  // Passes: that of the arriving blocks, of the seek in progress, and of the last seek().
   uint64_t pass_ = 0, next_pass_ = 0, wanted_pass_ = 0;
 };
 

@@ -18,7 +18,7 @@
 namespace spidar {
 namespace {
 
-/// The longest end that may be missing of a film that is known by its pictures.
+/// How much the ends of track and film may differ if the fingerprint is found in the film.
 constexpr int64_t kMaxMissing_ns = 500'000'000;
 
 constexpr std::initializer_list<const char*> kTrackSuffixes = {".haptic.flac", ".haptic.mka",

@@ -30,8 +30,8 @@ extern const char* const kTrackPathVariable;
 /// ~/.local/share/gst-spidar/tracks: in the subfolder of the film, if it has one. Empty if none.
 std::string find_sidecar(const std::string& film);
 
-/// Returns an empty text, or a sentence about the track that find_sidecar() finds in place of
-/// `track`, or about those beside the film that it passes over for `track`.
+/// Returns a sentence if find_sidecar() finds another track than `track`, or ignores tracks beside
+/// the film in favour of `track`; otherwise an empty string.
 std::string why_not_played(const std::string& film, const std::string& track);
 
 /// FilmMatch::mismatch of a track that was made of other pictures than the film has.
@@ -42,10 +42,10 @@ struct FilmMatch {
   int64_t later_ns = 0;  ///< how much later than the track says the film shows its pictures
 };
 
-/// Compares a track of `track_ns` with `notes` with `film`. A track that knows its film is
-/// recognised by the pictures, which may come later in another container; any other by its length:
-/// it ends with the last picture, within one frame. A track that was converted from another format
-/// may end anywhere.
+/// Compares `film` with a track of `track_ns` that has `notes`. A track with a fingerprint is
+/// recognised by that picture, which may come later in another container; any other track by its
+/// length: it ends with the last picture, within one frame. A track that was converted from another
+/// format may end anywhere.
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
 /// For a film that is not a file: returns an empty string, or why a track that lasts `track_ns` is

@@ -5,13 +5,13 @@
  * @title: spidarextract
  * @short_description: a haptic track from a video that spidarmotion has analysed
  *
- * The video passes from `sink` to `src` untouched. The pad `wrench` gives what `spidarmotion
- * attach-meta=true` wants to be felt, before any safety step, as six channels of sound: force x, y,
- * z and torque x, y, z, 1000 samples a second, F32. A sample of 1.0 is 10 N or 1 N m. Between two
- * frames the samples follow the curve that the haptic loop feels.
+ * The video passes from `sink` to `src` unchanged. The pad `wrench` sends the wanted wrench of
+ * `spidarmotion attach-meta=true`, before the limits, as six channels of sound: force x, y, z and
+ * torque x, y, z, 1000 samples a second, F32. A sample of 1.0 is 10 N or 1 N m. Between two
+ * frames the samples follow the curve that the haptic loop renders.
  *
- * Samples lie in running time from 0 on, whatever segments the video comes in, and their segment
- * gives their stream time. Where there are no frames they are zero. If the time stamps of the video
+ * Samples lie in running time from 0 on, whatever segments the video has; the segment of the
+ * samples gives their stream time. Without frames, samples are zero. If the timestamps of the video
  * jump forward by more than an hour, a warning is posted, there are no samples in between, and a
  * single frame there is left out.
  *
@@ -20,7 +20,7 @@
  * unlinked. Where both lead to sinks that wait for their first buffer, the video needs a queue;
  * otherwise the pipeline waits for ever, and a warning says so after a second.
  *
- * Played backwards, `wrench` has gap events in place of samples.
+ * In reverse playback, `wrench` sends gap events instead of samples.
  *
  * ## Example launch line
  * |[
@@ -86,7 +86,7 @@ static FrameWrench read_frame(GstBuffer* buffer, const Wrench& last) {
     frame.interval_ns = static_cast<int64_t>(motion.interval);
     frame.wrench = {{motion.force_x, motion.force_y, motion.force_z},
                     {motion.torque_x, motion.torque_y, motion.torque_z}};
-    // A picture that has stood still for long gives no force, so its wrench differs.
+    // A picture that has been repeated for long has no force, so its wrench differs.
     frame.repeats =
         gst_buffer_repeats_spidar_motion(buffer) && frame.wrench.stacked() == last.stacked();
   }
@@ -129,8 +129,8 @@ static void warn_of_data(GstSpidarExtract* self) {
       (nullptr));
 }
 
-/// How much of a stream a queue takes by default. A video sink that has not taken the first picture
-/// by then, while the pipeline waits for its sinks, waits for that of the track.
+/// How much of a stream a queue holds by default. If the pipeline still prerolls after this time,
+/// the video sink that blocks the push waits for the sink of the track.
 static constexpr GstClockTime kQueue = GST_SECOND;
 
 /// The clock calls this while the video is being pushed.
@@ -289,7 +289,7 @@ static void gst_spidar_extract_finalize(GObject* object) {
   G_OBJECT_CLASS(gst_spidar_extract_parent_class)->finalize(object);
 }
 
-/// Gives the element the pad of the template and returns the pad. The element keeps it.
+/// Adds a pad of this template to the element, which owns it.
 static GstPad* add_pad(GstElement* element, GstStaticPadTemplate* pad_template) {
   GstPad* pad = gst_pad_new_from_static_template(pad_template, pad_template->name_template);
   gst_element_add_pad(element, pad);

@@ -5,20 +5,20 @@
  * @title: spidarsink
  * @short_description: feel a haptic track with a SPIDAR haptic device
  *
- * Plays a haptic track, as spidarextract and spidartrack make them: sound of six channels, force x,
- * y, z and torque x, y, z, of which 1.0 is 10 N or 1 N m. F32, S16, S24 or S32, from 200 to 8000
- * samples a second; channel-mask 0 or 0x3f.
+ * Plays a haptic track as made by spidarextract and spidartrack: sound with six channels, force x,
+ * y, z and torque x, y, z, in which 1.0 is 10 N or 1 N m. The format is F32, S16, S24 or S32, with
+ * 200 to 8000 samples a second and channel-mask 0 or 0x3f.
  *
- * A player may convert any sound to this: a stream is felt only if a tag of it marks it as a haptic
- * track, HAPTIC_FULL_SCALE, or with #GstSpidarSink:accept-unmarked. Else a warning says so.
+ * A player may convert any sound to this form: a stream is felt only if the tag HAPTIC_FULL_SCALE
+ * marks it as a haptic track, or with #GstSpidarSink:accept-unmarked. Else a warning is posted.
  *
  * A sample is felt when a video sink shows the frame of the same running time: at base time +
  * running time + pipeline latency + #GstBaseSink:ts-offset. Between two samples the force is
  * interpolated. The safety chain is that of spidarmotion. Before PLAYING, in PAUSED, and from 50 ms
  * after the last sample there is no force. The sink provides no clock.
  *
- * At another rate than 1 a track keeps its amplitude; its time changes. For each 40 ms it posts the
- * message of spidarmotion, unless #GstSpidarSink:post-messages is false.
+ * At another rate than 1, a track keeps its amplitude; only its time changes. For each 40 ms, the
+ * element posts the message of spidarmotion, unless #GstSpidarSink:post-messages is false.
  *
  * ## Example launch line
  * |[
@@ -71,7 +71,7 @@ inline GstFlowReturn wait_until(GstBaseSink* sink, GstMiniObject* object, gint64
   return GST_FLOW_OK;
 }
 
-/// The properties of spidarsink. The words are those of spidarmotion.
+/// The properties of spidarsink. They have the names of those of spidarmotion.
 struct SinkProperties {
   std::string device = "sim";
   std::string profile;  ///< empty: that of the device's board
@@ -84,7 +84,7 @@ struct SinkProperties {
   std::string haptic_trace;
 };
 
-/// All properties of spidarsink, with `stats`; `ts-offset` is that of every sink.
+/// All properties of spidarsink, with `stats`; `ts-offset` is inherited from GstBaseSink.
 inline const PropertyTable<SinkProperties>& sink_properties() {
   // Never destroyed: a thread may still set a property while the process ends.
   static const auto& table = *new PropertyTable<SinkProperties>{{
@@ -233,8 +233,8 @@ static gboolean gst_spidar_sink_set_caps(GstBaseSink* sink, GstCaps* caps) {
   return FALSE;
 }
 
-/// A stream of other sound, whose source does not first ask what is accepted, gets as far as
-/// set_caps(): the sentence there explains more than a failed negotiation.
+/// Accepts all caps, so that a stream of other sound fails in set_caps(), whose error explains more
+/// than a failed negotiation.
 static gboolean gst_spidar_sink_query(GstBaseSink* sink, GstQuery* query) {
   if (GST_QUERY_TYPE(query) != GST_QUERY_ACCEPT_CAPS) {
     return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->query(sink, query);
@@ -325,7 +325,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
   return GST_BASE_SINK_CLASS(gst_spidar_sink_parent_class)->event(sink, event);
 }
 
-/// Without `sync` the base class does not wait, and the whole track would be over at once.
+/// Sets `sync` again: without it, the base class would not wait, and the track would end at once.
 static void keep_sync(GstSpidarSink* self) {
   if (gst_base_sink_get_sync(GST_BASE_SINK(self))) return;
   gst_base_sink_set_sync(GST_BASE_SINK(self), TRUE);

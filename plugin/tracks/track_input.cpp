@@ -19,7 +19,7 @@ bool has_no_mask(const GstCaps* caps) {
          !gst_structure_has_field(structure, "channel-mask");
 }
 
-/// Whether the channel mask is neither "none" nor the one into which containers convert it.
+/// Returns the channel mask as text, unless it is none, or 5.1, to which containers convert none.
 std::string strange_mask(const GstCaps* caps) {
   guint64 mask = 0;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);

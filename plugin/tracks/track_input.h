@@ -44,10 +44,10 @@ class Input {
   /// Returns an empty string, or a sentence that says why sound of these caps is not a haptic
   /// track, and what would be.
   std::string set_caps(const GstCaps* caps);
-  /// Tells that the next buffer does not continue the previous one.
+  /// Call this when the next buffer does not continue the previous one.
   void reset();
 
-  /// Gives the samples of `buffer` that lie in `segment`, multiplied by `gain`, in blocks of rising
+  /// Passes the samples of `buffer` in `segment`, times `gain`, to `give`, in blocks of rising
   /// running time, until `give` returns something other than GST_FLOW_OK. In reverse playback, the
   /// last sample comes first. A buffer without a timestamp follows the previous one.
   GstFlowReturn read(GstBuffer* buffer, const GstSegment& segment, double gain,

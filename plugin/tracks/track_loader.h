@@ -43,7 +43,7 @@ class Loader {
   // --- streaming thread
 
   /// Opens `wanted`: a file, or with "auto" the one beside the file `film`, else the track inside
-  /// it. Nothing when `wanted` is empty. Stops reading the previous track.
+  /// it. Opens nothing if `wanted` is empty. Stops reading the previous track.
   void begin(const std::string& wanted, const std::string& film);
   /// Returns when the track is open or has failed, when `limit` has passed, or when interrupted.
   void await(std::chrono::milliseconds limit);
@@ -56,7 +56,7 @@ class Loader {
 
   // --- while no streaming thread runs
 
-  /// Ends reading. A thread that waits for the system is left behind, and ends later.
+  /// Stops reading. A thread that is blocked in a system call is left behind, and ends later.
   void stop();
 
  private:
@@ -74,10 +74,10 @@ class FeltTrack {
  public:
   explicit FeltTrack(GstElement* element) : element_(element), warnings_(element) {}
 
-  /// The blocks to be rendered for the film that comes to the sink pad of the element; null when
-  /// there are none. Posts a warning when the track cannot be used, or is that of another film;
-  /// else information on what is felt. Rules of what is felt take precedence over a track that was
-  /// only found, not over one that track= names.
+  /// Returns the blocks to render for the film at the sink pad of the element, or null. Posts a
+  /// warning if the track cannot be used or belongs to another film, otherwise information on what
+  /// is felt. Rules of what is felt take precedence over a track that was found automatically, but
+  /// not over one that track= names.
   std::shared_ptr<ReadAhead> judge(const LoadedTrack& loaded, int64_t frame_ns, bool has_rules);
   /// Posts each warning once. Returns false when the track cannot be read further.
   bool check();

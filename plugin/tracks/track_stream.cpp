@@ -18,7 +18,7 @@ namespace {
 
 constexpr size_t kBufferSamples = Stream::kBuffer_ns / kTrackPeriod_ns;
 
-/// A segment whose time is the running time of `video`, in which it plays forward.
+/// Returns a forward segment whose time is the running time of `video`.
 GstSegment running_segment(const GstSegment& video) {
   GstSegment segment;
   gst_segment_init(&segment, GST_FORMAT_TIME);

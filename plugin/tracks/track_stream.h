@@ -13,7 +13,7 @@ namespace spidar::tracks {
 
 /// Caps of a haptic track as this project writes it. The channel mask of 5.1 comes first, though
 /// the channels are no loudspeakers: FLAC has no other, containers return it in place of none, and
-/// audioconvert does not convert between the two. A caps filter selects the other.
+/// audioconvert does not convert between the two. A capsfilter can select mask 0x0.
 #define SPIDAR_TRACK_CAPS_WITH(mask)                                                   \
   "audio/x-raw, format = (string) F32LE, layout = (string) interleaved, rate = (int) " \
   "1000, channels = (int) 6, channel-mask = (bitmask) " mask
@@ -30,21 +30,21 @@ struct FrameWrench {
   Wrench wrench;
 };
 
-/// The second pad of spidarextract: turns wrenches of frames into buffers of samples. Samples lie
+/// The pad `wrench` of spidarextract: converts wrenches of frames to buffers of samples. These lie
 /// at whole milliseconds of the running time of the video, from 0 on, in whatever segments the
 /// frames come: a demuxer may move the segment after the first frame (matroskademux, when the sound
 /// begins earlier than the pictures), an edit list has one segment for each edit, and encoders of
 /// sound accept no step backwards. The segment of the samples gives their stream time.
 ///
-/// Streaming thread only. All methods that return a flow push what has become known.
+/// Streaming thread only. All methods that return a flow push the samples that have become known.
 class Stream {
  public:
   static constexpr GstClockTime kBuffer_ns = 40 * GST_MSECOND;
   /// The curve between two frames needs the frame after them; if that is further away than this,
   /// the samples do not wait for it.
   static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
-  /// An interval without frames is silent. A longer interval than this is a wrong time stamp, or
-  /// the beginning of a stream that has been running for long, and has no samples.
+  /// An interval without frames has silent samples. A longer one than this has none: a timestamp is
+  /// wrong, or the stream had been running for long when it was joined.
   static constexpr int64_t kLongestSilence_ns = 3600 * int64_t{1'000'000'000};
 
   /// `pad` belongs to the element that owns this object.
@@ -59,7 +59,7 @@ class Stream {
   /// does not continue.
   GstFlowReturn begin_segment(const GstEvent* event);
   GstFlowReturn add(const FrameWrench& frame);
-  /// Tells that there are no frames from here on.
+  /// Call this when there are no frames from `pts` on.
   GstFlowReturn add_gap(GstClockTime pts);
   /// Pushes everything up to the end of the last frame, where the force is zero.
   GstFlowReturn finish();

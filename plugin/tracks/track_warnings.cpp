@@ -7,7 +7,7 @@
 #include "plugin/films/stream_content.h"
 #include "plugin/gobject/category.h"
 
-// GST_ELEMENT_WARNING logs there.
+// The category in which GST_ELEMENT_WARNING logs.
 #undef GST_CAT_DEFAULT
 #define GST_CAT_DEFAULT spidar::category_of(element_)
 

@@ -34,8 +34,8 @@ namespace {
 
 constexpr const char* kNotOpen = "the debug window is not open";
 constexpr const char* kSilent = "the debug window does not answer";
-/// How long close() waits for the thread, which ends in two thirds of that, unless its request to
-/// the player does not return because that waits for a lock of whoever closes the window.
+/// How long close() waits for the thread, which ends in two thirds of that time, unless its call
+/// into the player waits for a lock that the caller of close() holds.
 constexpr std::chrono::milliseconds kLongestClose = 3 * Window::kPatience;
 /// The most messages that are sent at once; more wait only for a window that does not read.
 constexpr size_t kMaxToSay = 1000;
@@ -70,7 +70,7 @@ class Process {
       return std::string("no socket: ") + std::strerror(errno);
     }
     const std::string path = program();
-    // In a session of its own, Ctrl-C in a terminal reaches only the player.
+    // Because of POSIX_SPAWN_SETSID, Ctrl-C in a terminal reaches only the player.
     process_ = start_child(path, {path}, {{ends[1], STDIN_FILENO}},
                            POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
     const int error = errno;
@@ -85,9 +85,9 @@ class Process {
 
   int socket() const { return socket_; }
 
-  /// Waits until the child has ended, which is killed when that takes longer than `patience_ms`.
-  /// Returns an empty string when it ended by itself, with status 0; else how: "was ended by the
-  /// signal 11 (Segmentation fault)".
+  /// Waits until the child has ended, and kills it after `patience_ms`. Returns an empty string if
+  /// the child ended by itself with status 0, otherwise how it ended: "was ended by the signal 11
+  /// (Segmentation fault)".
   std::string finish(int patience_ms) {
     if (process_ < 0) return "";
     constexpr int kStep_ms = 5;
@@ -162,7 +162,7 @@ class Window::Session {
   // The thread uses these.
   bool has_failed_ = false;        ///< the window has reported why it cannot be opened
   bool is_asked_ = false;          ///< whether a request waits for its answer
-  bool is_understood_ = true;      ///< whether the window sends messages
+  bool is_understood_ = true;      ///< whether the window sends valid messages
   uint32_t memory_at_window_ = 0;  ///< the last one that was sent
   // The streaming thread uses these.
   uint32_t memories_ = 0;
@@ -238,7 +238,7 @@ void Window::Session::say(ToWindow message) {
 std::string Window::Session::take_picture(const std::string& path,
                                           std::chrono::milliseconds timeout) {
   std::error_code error;
-  // The window has the folder that was current when it was opened.
+  // The window's working folder is the one that was current when it was opened.
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   std::unique_lock<std::mutex> lock(mutex_);
   if (is_gone_) return kNotOpen;
@@ -272,7 +272,7 @@ void Window::Session::watch() {
     has_left = channel.is_gone();
   }
   is_asking_ = false;
-  // The time of a window that must close and has not left is over.
+  // A window that has not closed its end by now is killed at once.
   std::string how = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
   if (!is_understood) how = "is of another version than the plugin";
   finish(how);
@@ -286,7 +286,7 @@ void Window::Session::fail(const std::string& error) {
   finish("");
 }
 
-/// Serves until the window has closed its end, or its time for that is over. Returns false when the
+/// Serves the window until it closes its end, or its time for that is over. Returns false when the
 /// window sends something other than messages. A window that does not read is not served, so that
 /// the queue to it does not grow.
 bool Window::Session::serve(Channel& channel) {
@@ -392,7 +392,7 @@ void Window::Session::end_waiting(const std::string& error) {
   changed_.notify_all();
 }
 
-/// `how` says how the window ended; empty if as it should.
+/// `how` describes how the window ended; empty if it ended normally.
 void Window::Session::finish(const std::string& how) {
   source_->lead_hand(std::nullopt);
   bool was_wanted = false;
@@ -426,7 +426,7 @@ Window::Window(std::shared_ptr<Source> source)
 void Window::close() {
   session_->close();
   if (!thread_.joinable()) return;
-  // When its user closes the window, the thread itself comes here.
+  // When the user closes the window, its thread itself calls this.
   const bool is_own = thread_.get_id() == std::this_thread::get_id();
   if (!is_own && session_->await_end()) {
     thread_.join();

@@ -31,13 +31,13 @@ class Source {
   virtual void choose(const std::optional<Eigen::Vector2d>& position) = 0;
   /// Saves the choices as rules, which hold from then on.
   virtual ChoicesSaved save(const std::string& film, const std::vector<FeelEdit>& edits) = 0;
-  /// Requests this from the player, which may refuse.
+  /// Requests that the player plays or pauses, which it may refuse.
   virtual void play(bool plays) = 0;
   /// Does nothing where the player cannot seek, as in live video.
   virtual void seek(int64_t to_ns) = 0;
   /// The window cannot be opened, or has failed: `what` says what happened, `advice` what to do.
   virtual void warn(const std::string& what, const std::string& advice) = 0;
-  /// Tells that the window is closed, but not by close().
+  /// Called when the window was closed, but not by Window::close().
   virtual void closed() = 0;
 };
 

@@ -119,7 +119,7 @@ char** list_of(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Returns whether the device has taken what `take` gives it: a device that is lost takes nothing.
+/// Returns whether the device accepts what `take` passes to it; a lost device accepts nothing.
 template <typename Take>
 bool taken(GstSpidarDevice* device, GstSpidarError* error, const char* what, const Take& take) {
   return guarded(error, false, [&] {

@@ -39,7 +39,7 @@ spidar::MotionKind kind_of(FeltMotion motion) {
   throw std::invalid_argument("there is no such motion");
 }
 
-// Its header is installed and includes none of these.
+// The installed header motion.h repeats the value, because it cannot include kDefaultForce_N.
 static_assert(MotionSettings{}.max_force_N == spidar::kDefaultForce_N);
 
 spidar::AnalyzerSettings settings_of(const MotionSettings& settings) {

@@ -12,8 +12,8 @@ namespace gst_spidar {
 inline namespace v0 {
 
 /// After fork(), the child has a copy of each object, but only the thread that called fork(): a
-/// lock that another thread held stays locked for ever, and nobody completes what that thread was
-/// writing. Objects with locks or threads are therefore reached only through this class, which
+/// lock that another thread held stays locked forever, and what that thread was writing stays
+/// incomplete. Objects with locks or threads are therefore accessed only through this class, which
 /// gives them only to the process that made them. The child does not destroy the copy either: there
 /// is no thread to wait for.
 template <typename T>

@@ -18,7 +18,7 @@
 
 namespace spidar::calibration {
 
-/// Throws std::invalid_argument that names what is wrong with the samples.
+/// Throws std::invalid_argument, which says what is wrong with the samples.
 void check_samples(const Profile& profile, const CountSamples& counts, int min_strings);
 
 /// Standard deviation of a rounded length, as the mean of all strings, when `averaged` samples are

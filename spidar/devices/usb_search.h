@@ -35,7 +35,7 @@ class UsbSearch {
 
   /// Opens the device that is meant. `open` opens a candidate and returns its rotary switch, −1
   /// without one; `close` closes a candidate that is not meant or did not open. Throws DeviceError,
-  /// which lists the devices that there are.
+  /// which lists the devices that were found.
   void open(const std::function<int(const Candidate&)>& open, const std::function<void()>& close);
   /// Throws as open() would, without opening anything.
   void require_one() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The interface between the haptic loop and what a hand holds: a wrench out, a pose in.
+/// The interface between the haptic loop and the grip of a device: a wrench out, a pose in.
 #pragma once
 
 #include <algorithm>
@@ -38,16 +38,16 @@ struct GripAbilities {
   bool can_touch() const noexcept { return force[2] && position[2]; }
   /// Whether the grip can point at a position of a picture.
   bool can_point() const noexcept { return position[0] || position[1]; }
-  /// The largest force limit: what the grip exerts, and at least the default.
+  /// The largest force limit: the largest force of the grip, and at least the default.
   double max_limit_N() const noexcept { return std::max(kDefaultForce_N, largest_force_N); }
 };
 
 /// The properties of a grip that do not change while it is open.
 struct GripTraits {
-  bool has_strings = true;  ///< it has the strings of a profile, which pull
-  bool can_fly = true;      ///< the wrench can throw a released grip
+  bool has_strings = true;  ///< whether the strings of a profile pull the grip
+  bool can_fly = true;      ///< whether the wrench can throw a released grip
   double radius_m = 0;      ///< radius at which a torque counts as a force; 0: torques do not count
-  double drive_lag_s = 0;   ///< from a command to the force that follows
+  double drive_lag_s = 0;   ///< lag from a command to its force
   GripBody body{};          ///< mass and inertia of a grip that turns
 
   /// The largest force limit, whoever sets it, with answers that take `late_s` longer than a tick:
@@ -65,7 +65,7 @@ struct GripTraits {
 
 /// The command that a grip receives in a tick.
 struct GripCommand {
-  Wrench wrench;  ///< on the hand, within the limits; only the brake changes it faster
+  Wrench wrench;  ///< on the hand, within the limits; only the brake exceeds the rate limits
   /// Whether the brake acts, see GripBrake: a force that throws the grip ends at once, and damping
   /// begins at once. A force that accelerates the grip rises no faster than otherwise.
   bool brakes = false;
@@ -85,24 +85,24 @@ struct GripReport {
   /// The wrench that the hand gets, computed for `pose` even if the pose is no longer known.
   Wrench delivered;
   StringVector tension_N = StringVector::Zero();  ///< commanded; zero for a grip without strings
-  bool held_back = false;  ///< less than wanted, because a string is left out or a motor is warm
+  bool held_back = false;  ///< whether a left-out string or a warm motor reduces the wrench
 
   Pose pose;             ///< from the newest good reading
   uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
   PoseFault pose_fault = PoseFault::kNotYet;
   double pose_residual_m = 0;
   int faulty_string = -1;  ///< the string whose length contradicts the others; −1 if all fit
-  double motor_heat = 0;   ///< of the warmest motor, see MotorHeat
+  double motor_heat = 0;   ///< heat of the warmest motor, see MotorHeat
 };
 
-/// A GripReport with what only the loop needs.
+/// A GripReport with the values that only the loop needs.
 struct GripReading : GripReport {
   Wrench at_rest;              ///< the part of `delivered` that strings exert without a command
   double stored_J = 0;         ///< energy that the strings at rest return on the way to the centre
   GripMotion motion;           ///< of the poses, also outside the frame; at rest without poses
   uint64_t pose_errors = 0;    ///< answers without a pose, since the grip was constructed
-  int64_t lag_ns = 0;          ///< from a command to its effect, if the device reports it
-  uint64_t string_faults = 0;  ///< how often a string became faulty, or a different one did
+  int64_t lag_ns = 0;          ///< lag from a command to its effect, if the device reports it
+  uint64_t string_faults = 0;  ///< how often a string was newly found faulty
 
   bool knows_pose() const noexcept { return pose_fault == PoseFault::kNone; }
 };
@@ -114,10 +114,10 @@ class Grip : public Openable {
   /// `device` outlives the grip, or belongs to it.
   explicit Grip(Openable& device) : Openable(device.name()), device_(device) {}
 
-  /// Tells the grip that time, s, has passed; also while the device is lost.
+  /// Call this in each tick, with the time since the last one, s; also while the device is lost.
   virtual void advance(double) noexcept {}
 
-  /// Forgets a pose that is too old. Call this before the wrench of a tick is computed.
+  /// Ends trust in a pose that is too old. Call this before the wrench of a tick is computed.
   virtual void check_age(int64_t now_ns) noexcept = 0;
 
   /// Performs one cycle at 1 kHz: no allocation, no lock, no exception. If the result is not kNone,

@@ -13,8 +13,8 @@
 
 namespace spidar {
 
-/// 1 − exp(−x) for x = `dt_s` / `time_s`: the fraction of the way that a first-order low-pass goes.
-/// The series of third order is 0.3 % too small at x = 0.5, and cheaper; a tick needs five values.
+/// 1 − exp(−x) for x = `dt_s` / `time_s`: the step response of a first-order low-pass. The third-
+/// order series is 0.3 % too small at x = 0.5, but cheaper, and a tick needs five values.
 inline double fraction_passed(double dt_s, double time_s) noexcept {
   if (!(time_s > 0)) return 1;
   const double x = dt_s / time_s;
@@ -33,16 +33,16 @@ struct GripVelocity {
 /// error of the velocity is 0.25 σ per tick; an encoder step of 20 µm (σ = 6 µm) gives 1.5 mm/s.
 ///
 /// velocity_in() fits a parabola to the poses of the last kFitted_ns by least squares. No single
-/// interval decides, because after a late tick an interval may last only 0.05 ms. The error of
+/// interval dominates, because after a late tick an interval may last only 0.05 ms. The error of
 /// poses and the possible acceleration of a grip limit how far the result departs from velocity()
-/// when poses are few or crowded; without poses, the result is velocity().
+/// when poses are few or close in time; without poses, the result is velocity().
 class GripMotion {
  public:
   static constexpr double kCutoff_Hz = 60;
   /// Half a tick, which is the lag of the difference, and the time constant of the low-pass.
   static constexpr double kLag_s = 0.5e-3 + 1 / (2 * M_PI * kCutoff_Hz);
 
-  /// Tells that the grip was at `pose` at `at_ns`. Ignored unless later than the last time.
+  /// Adds the pose of the grip at `at_ns`. Ignored unless `at_ns` is later than the last time.
   void update(const Pose& pose, int64_t at_ns) noexcept {
     if (!poses_.empty()) {
       const double dt_s = 1e-9 * static_cast<double>(at_ns - poses_[0].at_ns);
@@ -61,13 +61,13 @@ class GripMotion {
     }
   }
 
-  /// Tells that the pose is unknown: the velocity is zero until there are two poses again.
+  /// Call this when the pose is unknown: the velocity is zero until there are two poses again.
   void reset() noexcept { *this = {}; }
 
   bool is_known() const noexcept { return !poses_.empty(); }
   const GripVelocity& velocity() const noexcept { return velocity_; }
 
-  /// Returns where a grip at `pose` is `ahead_s` later at the present velocity.
+  /// Returns the pose that a grip at `pose` has `ahead_s` later, at the present velocity.
   Pose pose_in(const Pose& pose, double ahead_s) const noexcept {
     Eigen::Quaterniond turn;
     turn.w() = 1;
@@ -76,7 +76,7 @@ class GripMotion {
             (turn * pose.orientation).normalized()};
   }
 
-  /// Returns the velocity `ahead_s` after the newest pose, with the acceleration of the poses.
+  /// Extrapolates the velocity to `ahead_s` after the newest pose, with the poses' acceleration.
   GripVelocity velocity_in(double ahead_s) const noexcept {
     // The normal equations of way = c + a t + b h: h is t²/2, and way is the distance of a pose
     // from where velocity_ would have led. Subtracting the means below eliminates c.
@@ -118,7 +118,7 @@ class GripMotion {
     int64_t at_ns = 0;
   };
 
-  /// The time of seven poses, if all ticks are in time.
+  /// The time of seven poses, if all ticks are on time.
   static constexpr int64_t kFitted_ns = 6'500'000;
   static constexpr int64_t kApart_ns =
       500'000;  ///< between a pose and the next but one, so that kPoses suffice

@@ -65,24 +65,24 @@ class PoseTrust {
     const double passed_s = 1e-9 * static_cast<double>(read_ns - located_ns_);
     return located_ && moved_m > kMaxSpeed_m_s * passed_s + kJumpMargin_m;
   }
-  /// Returns when a pose was read in the tick of `now_ns`, if the device says `read_ns`. A time of
-  /// another clock, or older than any trusted pose, counts as that of the tick.
+  /// Returns the time at which a pose was read: the device's `read_ns`, or the tick's `now_ns` if
+  /// `read_ns` comes from another clock or is older than any trusted pose.
   static int64_t time_of(int64_t read_ns, int64_t now_ns) noexcept {
     return std::abs(read_ns - now_ns) < kPoseTimeout_ns ? read_ns : now_ns;
   }
-  /// Tells that a pose, good or not, was read at this time.
+  /// Call this when a pose, good or not, was read at `read_ns`.
   void locate(int64_t read_ns) noexcept {
     located_ = true;
     located_ns_ = read_ns;
   }
-  /// Tells that the pose is good. Trust begins with it only if `may_trust`; existing trust stays.
+  /// Call this for a good pose. Trust begins with it only if `may_trust`; existing trust stays.
   void succeed(bool may_trust) noexcept {
     misses_ = 0;
     good_poses_ = std::min(good_poses_ + 1, kGoodPoses);
     if (good_poses_ == kGoodPoses && may_trust) trusted_ = true;
   }
-  /// Tells that there is no good pose. With `at_once`, trust ends now, because the previous pose is
-  /// no longer true either.
+  /// Call this when there is no good pose. With `at_once`, trust ends now, because the previous
+  /// pose is no longer true either.
   void fail(PoseFault fault, bool at_once = false) noexcept {
     if (at_once) misses_ = kMaxMisses;
     good_poses_ = 0;
@@ -90,7 +90,7 @@ class PoseTrust {
     trusted_ = false;
     fault_ = fault;
   }
-  /// Tells that the device did not answer in a tick.
+  /// Call this when the device did not answer in a tick.
   void miss(int64_t now_ns) noexcept {
     check_age(now_ns);
     fail(PoseFault::kNoReading);

@@ -11,10 +11,10 @@
 
 namespace spidar {
 
-/// Leaves out single wrong readings, such as those with a bit that flipped on the way. Judges
-/// readings of N lengths or coordinates, m, by extrapolating the last two. A reading that no hand
-/// explains is left out once; the next one counts, so that a true change is seen one tick later. To
-/// a brake, a grip that is 1 mm off for one tick seems to move at 1 m/s.
+/// Leaves out single wrong readings, such as those with a bit flipped in transmission. Judges
+/// readings of N lengths or coordinates, m, by extrapolating the last two. A reading that no motion
+/// of a hand explains is left out once; the next one counts, so that a true change is seen one tick
+/// later. To a brake, a grip that is 1 mm off for one tick seems to move at 1 m/s.
 template <int N>
 class ReadingGate {
  public:

@@ -180,8 +180,8 @@ LinkFault StringGrip::exchange(const GripCommand& command) noexcept {
 void StringGrip::update(const DeviceReading& answer, const GripCommand& command) noexcept {
   const int left_out = watch_.faulty_string();
   watch_.update(answer, command);
-  // Poses that were computed without a string that fits after all may have been wrong: the step
-  // from them to this pose is no motion.
+  // Poses that were computed without a string that fits now may have been wrong, so the difference
+  // to this pose is no motion.
   if (left_out >= 0 && watch_.faulty_string() != left_out) reading_.motion.reset();
   if (watch_.trusted() || watch_.follows()) {
     reading_.motion.update(watch_.pose(), watch_.located_ns());

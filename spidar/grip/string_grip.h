@@ -41,9 +41,9 @@ class GripWatch {
   /// Forgets everything. The grip is assumed to be at the centre, as when a device is opened.
   void reset() noexcept;
 
-  /// Takes the reading of a tick in which the device has answered `command`.
+  /// Updates the pose with the reading of a tick in which the device has answered `command`.
   void update(const DeviceReading& reading, const GripCommand& command) noexcept;
-  /// Tells that the device did not answer in a tick.
+  /// Call this when the device did not answer in a tick.
   void miss(int64_t now_ns) noexcept { trust_.miss(now_ns); }
   /// Ends trust if the newest pose is too old. Call this before computing the tensions of a tick.
   void check_age(int64_t now_ns) noexcept { trust_.check_age(now_ns); }
@@ -60,7 +60,7 @@ class GripWatch {
   int faulty_string() const noexcept { return faulty_string_; }
   /// The number of ticks in which the device answered, but the answer gave no pose.
   uint64_t pose_errors() const noexcept { return pose_errors_; }
-  /// How often a string became faulty, or a different one did.
+  /// How often a string was newly found faulty.
   uint64_t string_faults() const noexcept { return string_faults_; }
 
  private:
@@ -86,11 +86,11 @@ class GripWatch {
   bool counted_ = false;  ///< whether the two members below are known
   std::array<int32_t, kMaxStrings> last_count_{};
   Wrench at_last_change_;  ///< the command when a counter last moved
-  double pushed_s_ = 0;    ///< for how long the command has differed from it by kFrozenForce_N
+  double pushed_s_ = 0;    ///< how long the command has differed from it, weighted by size
 };
 
-/// A grip on strings. Converts a wrench to tensions and these to volts, and counts to lengths and
-/// these to a pose. Keeps the strings taut, limits tensions, their rate of change and the heat of
+/// A grip on strings. Converts a wrench to tensions and then to volts, and counts to lengths and
+/// then to a pose. Keeps the strings taut, limits tensions, their rate of change and the heat of
 /// the motors, leaves out a string that is slack or broken, and notices dead encoders.
 class StringGrip final : public Grip {
  public:
@@ -116,7 +116,7 @@ class StringGrip final : public Grip {
   StringDevice& device_;
   const GripTraits traits_;
   const GripAbilities abilities_;
-  const StringVector home_lengths_m_;  ///< of the strings while the grip is in its home position
+  const StringVector home_lengths_m_;  ///< string lengths with the grip in its home position
   GripReading reading_;
   GripWatch watch_;
   TensionChain chain_;

@@ -50,7 +50,7 @@ StringVector TensionChain::delivered(const StringVector& tension_N, const Tick& 
   return command_.limit(tick.W, tick.command.limits, tick.pose, tick.motion);
 }
 
-/// A fraction of the added tensions gives the grip no more power than the wrench would.
+/// Reduces the added tensions so that they give the grip no more power than the wrench would.
 StringVector TensionChain::push(const StringVector& tension_N, const Tick& tick) noexcept {
   if (!tick.command.brakes) return tension_N;
   const GripVelocity then = tick.motion.velocity_in(profile_.drive_lag_s);

@@ -19,14 +19,14 @@ class TensionChain {
  public:
   struct Tick {
     const GripCommand& command;
-    const StructureMatrix& W;  ///< of `pose`
+    const StructureMatrix& W;  ///< structure matrix at `pose`
     const Pose& pose;
     const GripMotion& motion;
     bool trusted;  ///< whether the pose is trusted
     int left_out;  ///< string that is broken or slack; −1: none
   };
-  /// Returns what the step leaves of the tensions that it receives. The chain runs its steps in the
-  /// order of their list, and docs/architecture.md has the same list (test `limit_chain`).
+  /// One step; `leave` returns the limited tensions. The chain runs the steps in the order of
+  /// kSteps, and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
@@ -40,16 +40,16 @@ class TensionChain {
 
   /// Passes the command of `tick` through all steps.
   StringVector apply(const Tick& tick) noexcept;
-  /// Tells that the motors have received `tension_N`, the result of the last apply().
+  /// Call this when the motors have received `tension_N`, the result of the last apply().
   void acknowledge(const StringVector& tension_N) noexcept { acknowledged_N_ = tension_N; }
-  /// Tells that the motors may not have received it. Returns what they received last.
+  /// Call this when the motors may not have received it. Returns the last acknowledged tensions.
   const StringVector& undo() noexcept {
     slew_.reset(acknowledged_N_);
     return acknowledged_N_;
   }
-  /// Tells that the motors have pulled for `passed_s`.
+  /// Heats the motors with the acknowledged tensions for `passed_s`.
   void heat(double passed_s) noexcept { heat_.update(acknowledged_N_, passed_s); }
-  /// Starts with motors that are off, and as warm as they are.
+  /// Starts with motors that are off; their heat is kept.
   void reset() noexcept;
 
   double hottest() const noexcept { return heat_.hottest(); }
@@ -68,7 +68,7 @@ class TensionChain {
   TensionCommand command_;
   TensionSlew slew_;
   MotorHeat heat_;
-  StringVector acknowledged_N_ = StringVector::Zero();  ///< of the last command that was answered
+  StringVector acknowledged_N_ = StringVector::Zero();  ///< tensions of the last answered command
 };
 
 }  // namespace spidar

@@ -114,7 +114,7 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   if (!(size > 0)) return last_N_;
   problem_.W = W;
   const Wrench at_rest = left_out_ < 0 ? wrench_of(W, min_N_) : Wrench();
-  // Half of the range counts as all of it, because a motor may sustain at most half of it for ever.
+  // Half of the range counts as all of it: that is all that some motors sustain indefinitely.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
   problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);
@@ -167,7 +167,7 @@ StringVector TensionCommand::limit(const StructureMatrix& W, const SafetyLimits&
   const double moved_m = ahead_s_ * (now.linear_m_s.norm() + reach_m_ * now.angular_rad_s.norm());
   if (stays_within(W, limits, pose, moved_m)) return last_N_;
   const StructureMatrix there = structure_matrix(geometry_, motion.pose_in(pose, ahead_s_));
-  // The structure matrix changes little on the way: its ends bound the wrench between them.
+  // The structure matrix changes little on the way, so both ends bound the wrench between them.
   const double fraction = std::min(fraction_within(W, limits), fraction_within(there, limits));
   if (fraction < 1) last_N_ = min_N_ + fraction * (last_N_ - min_N_);
   return last_N_;

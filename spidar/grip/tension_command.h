@@ -17,10 +17,10 @@
 
 namespace spidar {
 
-/// I²t: the tension of a motor is proportional to its current, and the heat to the square of the
-/// current. Each motor is modelled as a body with one time constant. Heat 1 is the final value when
-/// the motor produces its continuous tension indefinitely. Nothing is measured; the motors are
-/// assumed to be cold when this object is created.
+/// An I²t model: the tension of a motor is proportional to its current, and the heat to the square
+/// of the current. Each motor is modelled as a body with one time constant. Heat 1 is the final
+/// value when the motor produces its continuous tension indefinitely. Nothing is measured; the
+/// motors are assumed to be cold when this object is created.
 class MotorHeat {
  public:
   /// From this heat on, the limit of a motor falls from its largest tension, down to its continuous
@@ -34,7 +34,7 @@ class MotorHeat {
     }
   }
 
-  /// Tells that the motors have produced `tension_N` for `dt_s`.
+  /// Updates the heat for motors that have produced `tension_N` for `dt_s`.
   void update(const StringVector& tension_N, double dt_s) noexcept {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const StringDrive& drive = profile_.drives[static_cast<size_t>(i)];
@@ -71,7 +71,7 @@ class TensionSlew {
   static constexpr double kRange_s = 0.02;
   /// … unless the range is so small that this would hold up a wrench, which may change as fast as
   /// SafetyLimits permit: weak motors need all of their range for a few newtons, and a force that a
-  /// brake takes away would go on accelerating the grip.
+  /// brake takes away would continue to accelerate the grip.
   static constexpr double kMin_N_s = 300;
 
   static double pace_N_s(const StringDrive& drive) noexcept {
@@ -112,7 +112,7 @@ class TensionCommand {
   /// (docs/strings.md).
   static constexpr double kTensionPerForce = 4;
 
-  /// Two ticks: the one until the next exchange, and one more if that is late.
+  /// Two ticks: one until the next exchange, and one more if that exchange is late.
   static constexpr double kAhead_s = 2e-3;
   /// The lever, as a fraction of the grip's radius, of the torque that least squares leaves beside
   /// a force that the strings cannot exert alone: 0.3 to 0.6 within 2 cm and 20°. A torque up to
@@ -148,9 +148,9 @@ class TensionCommand {
   StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                      const GripMotion& motion) noexcept;
 
-  /// For a tick without a wanted wrench or a known pose: takes `wrench`, which is ramping to zero,
-  /// as a fraction of the wrench of the last solve(), and returns the tensions to rest by the same
-  /// fraction, without W. With a `pace` of 4, they are at rest after a quarter of the ramp.
+  /// Returns the tensions for a tick without a wanted wrench or a known pose: they approach rest in
+  /// proportion as `wrench` falls from the wrench of the last solve() to zero. Needs no W. With a
+  /// `pace` of 4, they are at rest after a quarter of the ramp.
   StringVector fade(const Wrench& wrench, double pace = 1) noexcept;
   /// Call this before fade(): after a solve(), the fade begins at the present tensions. A tension
   /// that has not reached the solution yet would rise otherwise.
@@ -187,15 +187,15 @@ class TensionCommand {
 
   const StringGeometry geometry_;
   const double ahead_s_;
-  double reach_m_ = 0;     ///< of the farthest point of the grip
-  double shortest_m_ = 0;  ///< of the strings at the centre
+  double reach_m_ = 0;     ///< distance of the farthest point of the grip
+  double shortest_m_ = 0;  ///< length of the shortest string at the centre
   const StringVector min_N_;
   const StringVector max_N_;
   TensionProblem problem_;
   TensionSolver solver_;
   int left_out_ = -1;
   bool fades_ = true;    ///< no solve() since the last fade
-  StringVector last_N_;  ///< of the last solve()
+  StringVector last_N_;  ///< tensions of the last solve()
   double last_size_N_ = 0;
   double fraction_ = 1;
 };

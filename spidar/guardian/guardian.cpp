@@ -112,7 +112,7 @@ bool Guardian::start(const std::vector<std::string>& command, const LastWill& wi
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
   socket_ = ends[0];
   std::vector<std::pair<int, int>> files{{ends[1], STDIN_FILENO}};
-  // systemd-run would print an error there, after which the guardian is started without it.
+  // Hides an error of systemd-run, after which the guardian is started without systemd-run.
   if (command.size() > 1) files.emplace_back(kDevNull, STDERR_FILENO);
   // In a session of its own, Ctrl-C in a terminal reaches only the host.
   process_ = start_child(command[0], command, files, POSIX_SPAWN_SETSID);
@@ -148,7 +148,7 @@ bool Guardian::greet(const LastWill& will, int patience_s) {
     return uninterrupted_until(until_ns, [&] { return recv(socket_, &answer, 1, 0); }) == 1;
   };
   if (send_will(socket_, will, until_ns) && is_answered()) return true;
-  // The started program has no will, or is one that sleeps.
+  // The started program did not receive the will, or does not answer.
   const int error =
       errno == EAGAIN || errno == EINTR || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
   send_signal(SIGKILL);
@@ -168,7 +168,7 @@ void Guardian::carry_out() noexcept {
 
 bool Guardian::send_heartbeat(HostHeartbeat heartbeat) noexcept {
   const ssize_t sent = send(socket_, &heartbeat, 1, MSG_DONTWAIT | MSG_NOSIGNAL);
-  // A full socket belongs to a guardian that sleeps; missing answers reveal that.
+  // If the socket is full, the guardian is stopped; watch() notices that by the missing answers.
   return sent == 1 || errno == EAGAIN;
 }
 
@@ -178,8 +178,8 @@ bool Guardian::watch(bool pulling) noexcept {
   const int64_t now_ns = monotonic_now_ns();
   int64_t passed_ns = now_ns - std::exchange(watched_ns_, now_ns);
   was_suspended_ |= pulling_ && passed_ns > kSilence_ms * kMillisecond_ns;
-  // At rest nothing is at stake: whatever has suspended this process, as a virtual machine that
-  // gets no processor, may have suspended the guardian as well, and a pause counts as a heartbeat.
+  // At rest nothing is at stake, and whatever has suspended this process, such as a virtual machine
+  // without a processor, may have suspended the guardian as well: a pause counts as kBeat_ms.
   if (!pulling_) passed_ns = std::min(passed_ns, kBeat_ns);
   silent_ns_ += passed_ns;
   GuardianAnswer answer{};

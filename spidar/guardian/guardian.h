@@ -27,7 +27,7 @@ struct LastWill {
     uint32_t code = 0;
     int32_t value = 0;
   };
-  static constexpr size_t kMaxPackets = 8;  // as many UART boards as a line has
+  static constexpr size_t kMaxPackets = 8;  // a line has up to eight UART boards
   static constexpr size_t kMaxLength = 512;
   static constexpr size_t kMaxSettings = 24;
   static constexpr uint32_t kMagic = 0x53504736;  // "SPG6": this layout
@@ -59,7 +59,7 @@ static_assert(sizeof(LastWill) == 7 * 4 + LastWill::kMaxPackets * (4 + LastWill:
 /// have stopped the guardian as well. If the host runs and gets no answer for kAnswer_ms, its
 /// guardian is dead or stopped. So when a guardian stops, motors that pull are at zero after
 /// kAnswer_ms if the host runs all the time, after kAnswer_ms + kSilence_ms if the host runs every
-/// kSilence_ms, and otherwise at the host's next turn.
+/// kSilence_ms, and otherwise when the host runs again.
 constexpr int kBeat_ms = 10;
 constexpr int kSetting_ms = 5;
 /// The duration of an input device's effects, which must not outlast a hanging or stopped program.
@@ -72,7 +72,7 @@ constexpr int kAnswer_ms = 80;
 #endif
 
 /// Messages from a host to its guardian, one byte each. The guardian answers every message except
-/// kDismissed, which shows the host that its guardian is running.
+/// kDismissed; the answers show the host that its guardian is running.
 enum class HostHeartbeat : char {
   kPulling = 'p',    ///< the motors pull: the next message must follow soon
   kResting = 'r',    ///< the motors are at zero: the host may be silent
@@ -83,7 +83,7 @@ enum class HostHeartbeat : char {
 enum class GuardianAnswer : char {
   kWatching = 'w',
   /// The host sent no message in time, and the guardian has sent the zeros. The guardian repeats
-  /// them every kSilence_ms, sooner when they have not arrived, until the host dismisses it,
+  /// them every kSilence_ms, or sooner if they have not arrived, until the host dismisses it,
   /// because a host that continues may send old volts before reading this answer.
   kZeroed = 'z',
 };
@@ -139,11 +139,11 @@ class Guardian {
   int socket_ = -1;
   pid_t process_ = -1;  ///< −1: the guardian is a service
   pid_t owner_ = -1;
-  bool pulling_ = false;  ///< what the guardian knows
+  bool pulling_ = false;  ///< as last reported to the guardian
   bool was_suspended_ = false;
   int64_t said_ns_ = 0;
   int64_t watched_ns_ = 0;
-  int64_t silent_ns_ = 0;  ///< since the guardian last certainly worked
+  int64_t silent_ns_ = 0;  ///< time since the last proof that the guardian works
 };
 
 }  // namespace spidar

@@ -39,15 +39,15 @@ constexpr int kTransfer_ms = 20;
 /// After this time, the effects of an input device have ended by themselves.
 constexpr int kInputRetries = spidar::kEffect_ms / kRetry_ms;
 
-/// Returns whether a file will never take a packet again: its device is gone, or it is not a
-/// device. The kernel's usbfs returns only ENODEV and ESHUTDOWN of these; an emulation that this
-/// process does not see returns the others.
+/// Whether a file will never accept a packet again, because its device is gone or the file is not a
+/// device. Of these errors, the kernel's usbfs returns only ENODEV and ESHUTDOWN; the others come
+/// from an emulation that this process does not see.
 bool is_gone(int error) {
   return error == ENODEV || error == ESHUTDOWN || error == ENOTTY || error == EBADF;
 }
 
 /// Claims the interface unless it is claimed already. A host that has closed the board has released
-/// it, perhaps to a driver of the kernel, which is detached. Returns errno.
+/// it, perhaps to a driver of the kernel, which this function detaches. Returns 0 or errno.
 int claim(const LastWill& will) {
   unsigned interface = will.interface_number;
   if (ioctl(will.file, USBDEVFS_CLAIMINTERFACE, &interface) == 0) return 0;
@@ -59,8 +59,8 @@ int claim(const LastWill& will) {
   return ioctl(will.file, USBDEVFS_DISCONNECT_CLAIM, &claim) == 0 ? 0 : errno;
 }
 
-/// Returns true when all packets have been sent or can never be sent, or when a new host has the
-/// board, which the new host has set to zero.
+/// Returns true when all packets have been sent or can never be sent, or when a new host has
+/// claimed the board and set it to zero.
 bool send_usb(LastWill& will) {
   const int error = claim(will);
   if (error != 0) return is_gone(error) || error == EBUSY;
@@ -151,7 +151,7 @@ void sleep_ms(int milliseconds) {
 
 /// Returns true when the zeros have arrived or the device is gone. A board may recover at any time,
 /// and pulls until then. The effects of an input device end by themselves, and the kernel erases
-/// them when no process has the file open, so ending is better than trying for ever.
+/// them when no process has the file open, so ending is better than retrying forever.
 bool carry_out(LastWill& will) {
   for (int retries = 0; !send_packets(will); ++retries) {
     if (will.wire == LastWill::Wire::kInput && retries == kInputRetries) return false;
@@ -233,8 +233,8 @@ bool watch(int host, LastWill& will, bool& pulled) {
   }
 }
 
-/// The guardian is needed just as much when the machine is busy or short of memory. Where a
-/// privilege is missing, the guardian does without. Its children have the usual priority.
+/// The guardian must act in time even when the machine is busy or short of memory. If a privilege
+/// is missing, the guardian does without it. Its children have the usual priority.
 void ask_for_promptness() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);

@@ -17,7 +17,7 @@ namespace spidar {
 /// another folder for these programs; if that is empty, no program is used.
 inline std::string systemd_program(const char* name) {
   const char* folder = secure_getenv("SPIDAR_SYSTEMD");
-  // The check that sd_booted(3) documents.
+  // The same check as in sd_booted(3).
   if (!folder) folder = access("/run/systemd/system", F_OK) == 0 ? "/usr/bin" : "";
   return *folder ? std::string(folder) + "/" + name : std::string();
 }

@@ -51,7 +51,7 @@ class ForceLimits {
     take();
     now_ = set_;
   }
-  /// Tells that the device did not receive the command of this tick.
+  /// Call this when the device did not receive the command of this tick.
   void undo() noexcept { now_ = before_; }
 
   const SafetyLimits& as_set() const noexcept { return set_; }
@@ -75,7 +75,7 @@ class ForceLimits {
   double most_N_, most_Nm_;
   Seqlock<SafetyLimits> shared_;
   SafetyLimits set_, now_;
-  SafetyLimits before_;  ///< in effect before this tick
+  SafetyLimits before_;  ///< limits in effect before this tick
 };
 
 }  // namespace spidar

@@ -23,10 +23,10 @@ constexpr double kNoticed_s = kAnswers * 1e-3;
 /// reverses it: after τ ln 2 the force is zero, and until then 1 − ln 2 of F τ has acted.
 constexpr double kReversed = 0.307;
 
-/// The largest force limit. The whole force accelerates a released grip until the loop notices, for
-/// which each answer takes `late_s` longer than a tick, and, on average, for the lag of the drives:
-/// to kReleased_m_s for a grip of kLightestGrip_kg. kDefaultForce_N is permitted as long as it
-/// throws no faster when the damper reverses it: with a lag of up to 45 ms.
+/// The largest force limit, which accelerates a grip of kLightestGrip_kg to kReleased_m_s. The
+/// whole force acts until the loop notices the release, with answers that take `late_s` longer than
+/// a tick, and then, on average, for the lag of the drives. kDefaultForce_N is permitted as long as
+/// it throws the grip no faster when the damper reverses it: with a lag of up to 45 ms.
 constexpr double released_force_N(double drive_lag_s, double late_s = 0) noexcept {
   const double impulse_N_s = kLightestGrip_kg * kReleased_m_s;
   const double noticed_s = kNoticed_s + kAnswers * late_s;

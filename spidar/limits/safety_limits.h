@@ -11,7 +11,7 @@ constexpr double non_negative(double x) noexcept {
   return x > 0 ? x : 0;
 }
 
-/// The limits of what a hand gets. A limit that is negative or not a number counts as zero.
+/// The limits of the wrench on a hand. A limit that is negative or not a number counts as zero.
 struct SafetyLimits {
   double max_force_N = kDefaultForce_N;      ///< of the total force
   double max_torque_Nm = kDefaultTorque_Nm;  ///< of the total torque

@@ -9,19 +9,19 @@
 namespace spidar {
 namespace {
 
-// W_h of ISO 5349-1, exact values as in ISO 8041. Its low-pass of 1259 Hz takes 1.2 % at 500 Hz,
-// the highest frequency here, and is left out.
+// W_h of ISO 5349-1, exact values as in ISO 8041. Its low-pass of 1259 Hz, which removes 1.2 % at
+// 500 Hz, the highest frequency here, is left out.
 constexpr double kHighPass_rad_s = 2 * M_PI * 6.309573445;
 constexpr double kHighPassQ = 0.7071067812;
 constexpr double kTransition_rad_s = 100;
 constexpr double kTransitionQ = 0.64;
-/// Mean of the squared acceleration. A jolt of a slow film is spread over this time; a strong
+/// Time constant of the mean squared acceleration: spreads out a jolt of a slow film. A strong
 /// vibration still lowers the force at once, because a small fraction of its mean is enough.
 constexpr double kMean_s = 2;
-/// Added to the acceleration, m/s². A constant passes no high-pass, and keeps the numbers of a
-/// filter without input from becoming denormal, which are slow to compute with.
+/// Added to the acceleration, m/s². The high-pass removes a constant, and the constant keeps the
+/// states of a filter without input from becoming denormal numbers, which are slow.
 constexpr double kOffset = 1e-6;
-/// In one tick: 50 ms, six periods of the high-pass.
+/// The most filter steps in one tick: 50 ms, twice the time constant of the high-pass.
 constexpr int kMostSteps = 50;
 
 }  // namespace
@@ -74,8 +74,8 @@ void VibrationBudget::update(const Wrench& strings, double passed_s, int64_t now
   const double left_m2_s3 = std::max(0.0, kStore_m2_s3 - kRefill_m2_s4 * empty_s);
   state_.left = 1 / kStore_m2_s3 * left_m2_s3;
 
-  // The fraction is constant over a period of the vibration, so the vibration without it follows
-  // from the passed one.
+  // The fraction is constant over a period of the vibration, so dividing by it gives the vibration
+  // at full force.
   const double least_fraction = 1e-3;
   const double passed = std::max(state_.fraction, least_fraction);
   const double whole_m2_s4 = squared_m2_s4 / (passed * passed);

@@ -12,15 +12,15 @@
 
 namespace spidar {
 
-/// Measures the vibration that the strings cause, and finds the fraction of the force that may
-/// continue within the vibration of a day.
+/// Measures the vibration that the strings cause, and computes the fraction of the force that keeps
+/// it within the daily limit.
 ///
 /// The alternating part of the force, divided by kMoved_kg, is an acceleration. It is weighted with
 /// W_h of ISO 5349-1, squared and integrated. A torque counts as the force at the grip's radius
 /// that causes it. The weight is 0.03 at 1 Hz, 0.25 at 3 Hz, most at 12 Hz, and falls as 1/f above
 /// that, so a slow force hardly counts.
 ///
-/// The vibration takes from a store of kStore_m2_s3, which is refilled with kRefill_m2_s4. In any
+/// The vibration empties a store of kStore_m2_s3, which is refilled with kRefill_m2_s4. In any
 /// 24 hours a hand therefore gets at most kStore_m2_s3 + 24 h · kRefill_m2_s4, which is the daily
 /// action value of Directive 2002/44/EC: 2.5 m/s² for eight hours. The fraction falls so that the
 /// vibration takes at most 1/kEmptied_s of the rest each second, and is 1 as long as this is no
@@ -33,7 +33,7 @@ class VibrationBudget {
     /// The fraction of the store that is left, 0 … 1.
     double left = 1;
 
-    /// A hand notices a lowered force: a force must change by 7 % for that.
+    /// Whether the force is lowered by enough for a hand to notice: 7 %.
     bool lowered() const noexcept { return fraction < 0.93; }
   };
 
@@ -47,15 +47,15 @@ class VibrationBudget {
   /// A lowered force returns with this time constant.
   static constexpr double kReturn_s = 20;
   /// The mass that the force moves: that of a grip alone, which is conservative. ISO 10068 has
-  /// values of the hand, but for handles that are gripped with 25 N or more.
+  /// values for the hand, but for handles that are gripped with 25 N or more.
   static constexpr double kMoved_kg = 0.1;
   static constexpr double kTick_s = 1e-3;
 
   /// `grip_radius_m` converts torques to forces; 0: torques do not count.
   explicit VibrationBudget(double grip_radius_m) noexcept;
 
-  /// The strings exert `strings` in a tick, `passed_s` after the last one. The filters run in steps
-  /// of kTick_s, however irregular the ticks are. `now_ns` must rise.
+  /// Adds the wrench `strings` of a tick, `passed_s` after the last one. The filters run in steps
+  /// of kTick_s, however irregular the ticks are. `now_ns` must increase.
   void update(const Wrench& strings, double passed_s, int64_t now_ns) noexcept;
 
   double fraction() const noexcept { return state_.fraction; }
@@ -69,7 +69,7 @@ class VibrationBudget {
   void restore(int64_t full_at_ns) noexcept {
     restored_ns_.store(full_at_ns, std::memory_order_relaxed);
   }
-  /// The vibration so far, as the time that refilling takes. Any thread.
+  /// The total vibration so far, as the time that refilling takes. Any thread.
   int64_t taken_ns() const noexcept { return taken_ns_.load(std::memory_order_relaxed); }
 
  private:
@@ -89,7 +89,7 @@ class VibrationBudget {
   Section transition_;  ///< from acceleration to velocity, ISO 5349-1
   Section high_pass_;
   double due_s_ = 0;       ///< time since the filters' last step
-  double mean_m2_s4_ = 0;  ///< of the present vibration at full force
+  double mean_m2_s4_ = 0;  ///< mean square of the acceleration at full force
   double most_m2_s4_ = 0;  ///< the same, falling with kReturn_s
   State state_;
   int64_t full_at_ns_ = INT64_MIN;

@@ -28,23 +28,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often the taken vibration is stored: it takes 1/kEmptied_s of the rest a second.
+/// How often the vibration is stored. In a second, it empties 1/kEmptied_s of the rest at most.
 constexpr std::chrono::seconds kEvery{1};
-/// A smaller amount waits: a thousandth of the store, so that a film that hardly vibrates does not
-/// keep a disk awake.
+/// Smaller amounts are not stored yet: a thousandth of the store. A film that hardly vibrates does
+/// not keep a disk awake.
 constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBudget::kStore_m2_s3 /
                                                        VibrationBudget::kRefill_m2_s4);
-/// No store is emptier than this: twice its capacity.
+/// The longest time until a store is full again: that of twice the store.
 constexpr int64_t kMax_ns = 4 * VibrationMemory::kUnknown_ns;
 
 constexpr size_t kMaxText = 200;
 
-/// Root may write everything anyway, as with a home that sudo has kept.
+/// For root, no file counts as another's: root may write all, and sudo may keep a user's home.
 bool is_of_another(const struct stat& status) {
   return status.st_uid != geteuid() && geteuid() != 0;
 }
 
-/// The owner that a user namespace, as of a container, shows for root outside of it (overflowuid).
+/// The owner that a user namespace, as in a container, shows for the host's root (overflowuid).
 constexpr uid_t kUnmapped = 65534;
 
 /// The first folder above the file in which others may remove or rename a part of the path, or
@@ -67,7 +67,7 @@ std::string folder_of_others(const fs::path& file) {
   return {};
 }
 
-/// An open file that no other process has locked, or errno.
+/// A file that this process has opened and locked, or the errno of the failure.
 class LockedFile {
  public:
   explicit LockedFile(const std::string& path) {
@@ -104,7 +104,7 @@ class LockedFile {
     if (length < 0) error = errno;
     return {text.data(), static_cast<size_t>(std::max<ssize_t>(length, 0))};
   }
-  /// Writes in one piece, and always of the same length: no reader finds a part of it.
+  /// Writes the text at once, always with the same length, so that no reader finds a part of it.
   void write(const std::string& text) {
     if (error != 0) return;
     const ssize_t length =
@@ -114,7 +114,7 @@ class LockedFile {
   }
 
   int error = 0;
-  std::string untrusted;  ///< why somebody else may have written the content; empty: this user has
+  std::string untrusted;  ///< why another user may have written the content; empty: none may
 
  private:
   int file_ = -1;

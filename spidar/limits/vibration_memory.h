@@ -13,7 +13,7 @@
 
 namespace spidar {
 
-/// A time on two clocks of the kernel, of which only the first cannot be set.
+/// A time on two clocks of the kernel, of which only the second can be set.
 struct Moment {
   int64_t since_boot_ns = 0;  ///< CLOCK_BOOTTIME, which continues while the computer sleeps
   std::string boot;           ///< identifies this start of the computer; empty: unknown
@@ -26,7 +26,7 @@ struct Moment {
 /// computer, the larger one of the time since the restart and the difference in UTC.
 int64_t passed_ns(const Moment& then, const Moment& now) noexcept;
 
-/// Stores the rest of the user's VibrationBudget in a file, for the next program and for those that
+/// Stores the state of the user's VibrationBudget in a file, for later programs and for those that
 /// run at the same time. Any thread.
 class VibrationMemory {
  public:
@@ -35,8 +35,8 @@ class VibrationMemory {
   static constexpr auto kUnknown_ns = static_cast<int64_t>(1e9 * VibrationBudget::kStore_m2_s3 / 2 /
                                                            VibrationBudget::kRefill_m2_s4);
 
-  /// Without a file, this object only remembers until it is destroyed; unless that is wanted,
-  /// `why_no_file` says why there is none.
+  /// Without a file, the state is lost with this object. If that is not intended, `why_no_file`
+  /// says why there is no file.
   explicit VibrationMemory(std::string file, std::string why_no_file = {})
       : file_(std::move(file)), why_no_file_(std::move(why_no_file)) {}
 
@@ -53,7 +53,7 @@ class VibrationMemory {
  private:
   struct Entry {
     Moment at;
-    int64_t empty_ns = 0;  ///< until the store is full again
+    int64_t empty_ns = 0;  ///< time until the store is full again
 
     int64_t left_ns(const Moment& now) const noexcept;
   };
@@ -63,14 +63,14 @@ class VibrationMemory {
 
   const std::string file_, why_no_file_;
   mutable std::mutex mutex_;
-  std::optional<Entry> last_;  ///< as this process knows it
+  std::optional<Entry> last_;  ///< the newest entry of this process
   std::string error_;
 };
 
 /// Keeps the memory up to date while a loop runs, in a thread of its own.
 class VibrationKeeper {
  public:
-  /// `budget` begins with the rest in the memory.
+  /// Restores `budget` from the memory.
   VibrationKeeper(VibrationBudget& budget, VibrationMemory& memory);
   /// Call this when the loop has ended.
   ~VibrationKeeper();

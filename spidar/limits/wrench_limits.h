@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The size of a wrench and its rate of change: steps of WrenchChain, without allocation or lock.
+/// Limits of a wrench and its rate of change: steps of WrenchChain that neither allocate nor lock.
 #pragma once
 
 #include "core/wrench.h"
@@ -13,15 +13,15 @@ namespace spidar {
 Wrench limit_total(const Wrench& wanted, const SafetyLimits& limits) noexcept;
 
 /// Returns the wrench `dt_s` after `last`, with a bounded change of force and torque per second. A
-/// wrench above lowered total limits comes straight down to them before it turns towards `wanted`:
-/// on a curved way, it would fall by less than each step. There is no step towards `wanted` if it
+/// wrench above lowered total limits falls straight to them before it turns towards `wanted`: on a
+/// curved path, its size would fall by less than each step. There is no step towards `wanted` if it
 /// is not finite, or if `dt_s` is zero, negative or not a number.
 Wrench limit_slew(Wrench last, const Wrench& wanted, double dt_s,
                   const SafetyLimits& limits) noexcept;
 
-/// Ramps the wrench to zero when commands stop, and back when they begin. The ramp is level at both
-/// ends, so that there is neither a step nor a corner, and a command that is a little late makes
-/// hardly any difference.
+/// Ramps the wrench to zero when commands stop, and back when they begin. The ramp has zero slope
+/// at both ends, so that there is neither a step nor a corner, and a command that is a little late
+/// makes hardly any difference.
 class StaleRamp {
  public:
   /// Returns the fraction of the wrench to apply, 0 … 1, `dt_s` after the last call. `fresh` says
@@ -34,7 +34,7 @@ class StaleRamp {
   static constexpr double kSteepest = 1.5;
 
  private:
-  double way_ = 0;  ///< 0 … 1, in ramp_s
+  double way_ = 0;  ///< 0 … 1, linear in time
 };
 
 /// The rates of a wrench: the ramp and the slew limit.
@@ -52,8 +52,8 @@ class WrenchLimits {
   /// The next apply() continues from `at`, to which the brake has reduced the last result.
   void continue_from(const Wrench& at) noexcept { last_ = at; }
 
-  /// Tells that the device did not receive the result of the last apply(): the next call continues
-  /// from the wrench before.
+  /// Call this when the device did not receive the result of the last apply(): the next call
+  /// continues from the previous wrench.
   void undo() noexcept;
   /// The wrench from which the next apply() continues.
   const Wrench& last() const noexcept { return last_; }

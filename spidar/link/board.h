@@ -74,8 +74,8 @@ class BoardOf {
   /// The position of the rotary ID switch; −1 if the board has none. Call this after open().
   int rotary() const noexcept { return rotary_; }
 
-  /// The guardian has failed or has set the motors to zero, and close() follows, most likely with
-  /// another open(): the board must not return to the state that other programs expect.
+  /// Call this when the guardian has failed or has set the motors to zero. close() follows, most
+  /// likely with another open(), so the board must not return to the state for other programs.
   void expect_reopening() noexcept { reopening_ = true; }
 
  protected:
@@ -91,7 +91,7 @@ class Board : public BoardOf<MotorVolts, DeviceReading> {
   EncoderCounts& counts() noexcept { return counts_; }
 
  protected:
-  /// Takes the counters of an answer.
+  /// Updates the counts with the counters of an answer.
   LinkFault take(const std::array<uint32_t, kMaxStrings>& counters,
                  DeviceReading& reading) noexcept {
     if (!counts_.update(counters, monotonic_now_ns())) return LinkFault::kCounterJump;
@@ -118,10 +118,10 @@ inline ForceOutput scaled(ForceOutput output, double fraction) noexcept {
 
 struct ForceReading {
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  ///< of the grip, device frame
-  /// Why the position is not a number; kNone if it is.
+  /// Why there is no position; kNone if there is one.
   PoseFault pose_fault = PoseFault::kNoReading;
   uint32_t buttons = 0;  ///< the pressed ones; the first button is the lowest bit
-  int64_t lag_ns = 0;    ///< from a command to the force, as the device reports it
+  int64_t lag_ns = 0;    ///< lag from a command to its force, as the device reports it
   int64_t read_ns = 0;   ///< as in DeviceReading
 };
 

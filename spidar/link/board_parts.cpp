@@ -8,7 +8,7 @@
 namespace spidar::boards {
 namespace {
 
-/// The speed of a hand with a grip (EncoderCounts). Faster counters count as broken.
+/// The largest speed of a hand with a grip (EncoderCounts). A faster counter counts as broken.
 constexpr double kFastestHand_m_s = 10;
 constexpr double kLeast_m_per_count =
     kFastestHand_m_s * 1e-3 / static_cast<double>(EncoderCounts::kMaxStepPer_ms);

@@ -98,7 +98,7 @@ struct Traits {
   double max_V = 0;         ///< the largest voltage; 0: not published, the profile states it
   double digits_per_V = 0;  ///< 0: the largest digit is the largest voltage
   bool negative = false;    ///< whether the D/A converter has negative volts
-  int counter_bits = 16;    ///< of the encoders
+  int counter_bits = 16;    ///< bits of the encoder counters
 
   DacScale dac(const Profile& profile) const noexcept {
     const int max_digit = (1 << dac_bits) - 1;

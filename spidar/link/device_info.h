@@ -6,7 +6,7 @@
 
 namespace spidar {
 
-/// What is known about a device before it is opened, with which make_grip() can open it.
+/// A device that make_grip() can open, and what is known about it before that.
 struct DeviceInfo {
   std::string device;                 ///< for make_grip(): "usb:1-2", "sim"
   std::string name;                   ///< "CyVerse USB 2.0 SH4"

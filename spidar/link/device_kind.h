@@ -20,7 +20,7 @@
 namespace spidar {
 
 struct DeviceKind {
-  const char* device = "";  ///< how its names for make_grip() begin: "usb"
+  const char* device = "";  ///< the beginning of its names for make_grip(): "usb"
   /// "sh4", for sim:sh4; the same as `device` where that has one board only.
   const char* board = "";
   const char* title = "";  ///< for people: "CyVerse USB 2.0 SH4"
@@ -64,7 +64,7 @@ struct DeviceKind {
   bool needs_rest() const { return std::string(names).rfind(std::string(device) + ":", 0) == 0; }
 };
 
-// For the members of a DeviceKind:
+// Functions for the members `attach` and `emulate` of a DeviceKind.
 
 template <typename BoardType>
 boards::AnyBoard attach(const std::string& name, const Profile& profile,

@@ -22,7 +22,7 @@ namespace spidar::emulated {
 class Motors {
  public:
   virtual ~Motors() = default;
-  /// Tells that the board has set the D/A converters to these digits.
+  /// Called when the board has set the D/A converters to these digits.
   virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
   /// Returns counts as the host should receive them.
   virtual std::array<int32_t, kMaxStrings> counts() noexcept { return {}; }
@@ -30,7 +30,7 @@ class Motors {
   virtual uint16_t inputs() noexcept { return 0; }
 };
 
-/// The state of a device that remains while programs come and go. Starts as after plugging in.
+/// The state of a device that outlives programs. Initially as after plugging in.
 struct Memory {
   std::atomic<bool> loaded{false};  ///< whether the firmware is loaded
   std::atomic<uint16_t> baud{0};    ///< divisor
@@ -41,14 +41,14 @@ class Board {
  public:
   explicit Board(std::shared_ptr<Motors> motors) : motors_(std::move(motors)) {}
   virtual ~Board() = default;
-  /// Takes bytes from the host: one packet, or any piece of a stream.
+  /// Receives bytes from the host: one packet, or any piece of a stream.
   virtual void receive(ByteView bytes) noexcept = 0;
   /// Writes the next due reply and returns its length; 0 if none or if `bytes` is too small.
   virtual size_t reply(MutableBytes bytes) noexcept = 0;
   /// Starts with the given memory and keeps its state there; the memory must outlive the board.
   /// Without a memory, the board starts as one that was used before.
   virtual void remember(Memory&) noexcept {}
-  /// Takes a vendor request; returns false if the board does not know the request.
+  /// Handles a vendor request; returns false if the board does not know the request.
   virtual bool control(const VendorRequest&) noexcept { return false; }
 
  protected:

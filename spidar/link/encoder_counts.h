@@ -12,7 +12,7 @@
 
 namespace spidar::boards {
 
-/// Follows up to kMaxStrings counters of `bits` bits, assuming the shorter way round.
+/// Unwraps up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way.
 class CountUnwrapper {
  public:
   /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
@@ -41,11 +41,11 @@ class CountUnwrapper {
     return true;
   }
 
-  /// Takes the counters after a break in which the board was not read. Returns false and changes
-  /// nothing when a counter has jumped, or when a loss of power seems to have reset the counters:
-  /// they are nearer to zero than to their previous values, which were not near zero themselves. A
+  /// Continues with the counters after a break in which the board was not read. Returns false and
+  /// changes nothing when a counter has jumped, or when a loss of power seems to have reset the
+  /// counters: they are nearer to zero than to their previous values, which were not near zero. A
   /// grip that a hand moved towards the counters' zero looks the same. Mistaking this for a reset
-  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts them.
+  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts any counters.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const int32_t moved = distance(raw, last_.raw, channels);
     const bool anew = moved > kStill && distance(last_.raw, {}, channels) > kStill &&
@@ -53,7 +53,7 @@ class CountUnwrapper {
     return !anew && update(raw, channels);
   }
 
-  /// Takes the counter values of a first reading, sign extended, as counts.
+  /// Starts with the counter values of a first reading, sign-extended, as counts.
   void begin(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     last_ = {raw, {}};
     for (size_t i = 0; i < channels; ++i) last_.count[i] = signed_difference(raw[i]);
@@ -82,7 +82,7 @@ class CountUnwrapper {
     int32_t most = 0;
     for (size_t i = 0; i < channels; ++i) {
       const int32_t difference = signed_difference(from[i] - to[i]);
-      // The most negative number has no opposite.
+      // The most negative integer cannot be negated.
       most = std::max({most, difference, -std::max(difference, -INT32_MAX)});
     }
     return most;
@@ -96,7 +96,7 @@ class CountUnwrapper {
 
   int bits_;
   Values last_;
-  Values before_;  ///< of the reading before the last one
+  Values before_;  ///< values of the reading before the last one
 };
 
 class EncoderCounts {
@@ -126,7 +126,7 @@ class EncoderCounts {
     restarted_ = false;
   }
 
-  /// Takes a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores the reading if a
+  /// Adds a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores the reading if a
   /// counter changed by more than a hand can cause since the last reading, good or not: the
   /// counters of a board that loses its power for a moment jump, and do not jump back.
   bool update(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {

@@ -17,7 +17,7 @@
 namespace spidar::boards {
 
 /// The grip of a device that takes a force directly, not as tensions of strings. Sends the force to
-/// the board in the axes that the board renders, up to its range, and takes the position from the
+/// the board in the axes that the board renders, up to its range, and reads the position from the
 /// board. There is no torque, and no rotation.
 class ForceGrip final : public Grip {
  public:
@@ -112,7 +112,7 @@ class ForceGrip final : public Grip {
                                                                : PoseFault::kNone;
   }
 
-  /// More than a count of the coarsest device, the Falcon, which moves the arm by 38 µm.
+  /// More than one count of the coarsest device: 38 µm at the arm of the Falcon.
   static constexpr double kPositionError_m = 50e-6;
 
   const std::unique_ptr<ForceLink> link_;

@@ -169,8 +169,8 @@ typename LinkThread<BoardType>::Reply LinkThread<BoardType>::answer(
   pulling_ |= pulling;
   if (guarded(pulling_)) exchange_now(request, reply);
   if (reply.fault == LinkFault::kNone) pulling_ = pulling;
-  // This check comes after the exchange, too: the output may have gone out after a guardian sent
-  // zeros while this process was stopped.
+  // Check again after the exchange: this process may have been stopped, and may have sent the
+  // output after a guardian had sent zeros.
   if (guarded(pulling_)) return reply;
   unguarded_ = reply.fault = why_unguarded();
   put_out_zero();

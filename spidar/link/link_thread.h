@@ -45,7 +45,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
 
   /// Here, CountZero::kByProfile means kFirstOpen; make_grip() resolves it.
   LinkThread(std::unique_ptr<BoardType> board, const Settings& settings);
-  /// Takes several boards, of which `open` opens and returns one, or none if it throws.
+  /// For several boards, of which `open` opens and returns one; if `open` throws, none is open.
   LinkThread(std::vector<std::unique_ptr<BoardType>> boards, std::function<BoardType&()> open,
              const Settings& settings);
   ~LinkThread() override;
@@ -86,7 +86,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
 
   const std::vector<std::unique_ptr<BoardType>> boards_;
   const std::function<BoardType&()> open_board_;
-  BoardType* board_;  ///< the one that was opened last
+  BoardType* board_;  ///< the board that was opened last
   const Settings settings_;
   bool zeroed_ = false;  ///< whether the counts have been set to zero once
   std::vector<std::unique_ptr<Guardian>> guardians_;
@@ -106,7 +106,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   sem_t requested_{};
   sem_t replied_{};
 
-  // The thread that exchanges writes this, or the caller of exchange(): never both at a time.
+  // Written by the thread that exchanges or by the caller of exchange(), never by both at a time.
   std::array<std::atomic<uint64_t>, kLinkFaults> faults_{};
   std::atomic<LinkFault> last_fault_{LinkFault::kNone};
   std::atomic<uint64_t> late_{0};

@@ -13,7 +13,7 @@
 
 namespace spidar::emulated {
 
-/// Takes a force for motors whose digits are the force in millinewtons and whose counts are the
+/// Passes a force to motors whose digits are the force in millinewtons and whose counts are the
 /// position in micrometres: right, up, towards the viewer.
 inline void put_out_N(Motors& motors, const Eigen::Vector3d& force_N) noexcept {
   std::array<int, kMaxStrings> milli_N{};

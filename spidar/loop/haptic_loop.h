@@ -62,12 +62,12 @@ class HapticLoop {
   static constexpr double kRelease_s = 0.05;
   /// The number of failed exchanges in a row after which a device is lost.
   static constexpr int kMaxErrors = MissingAnswers::kMax;
-  /// The longest time for which a force rises in one tick, however late that is, so that a stall
-  /// does not end in a step. Falling values fall in the time that has passed.
+  /// The longest time step for a rising force, however late a tick is, so that a stall does not end
+  /// in a jump of the force. Falling values use the time that has really passed.
   static constexpr int64_t kMaxStep_ns = 2 * kTick_ns;
-  static constexpr size_t kForces = 1024, kRecords = 4096;  ///< ticks that are stored of each
+  static constexpr size_t kForces = 1024, kRecords = 4096;  ///< capacities in ticks
 
-  /// open() opens `grip`.
+  /// Does not open `grip`; open() does.
   explicit HapticLoop(std::unique_ptr<Grip> grip, const SafetyLimits& limits = {});
   ~HapticLoop();
   HapticLoop(const HapticLoop&) = delete;
@@ -78,7 +78,7 @@ class HapticLoop {
   /// Schedules a wrench for the running time `entry.time_ns` on the screen. Returns false when the
   /// ring is full because the loop does not run, does not play, or is far behind.
   bool schedule(const TimedWrench& entry) noexcept { return schedule_.push(entry); }
-  /// Schedules samples of a track, in the order of their times. Samples replace frames.
+  /// Schedules samples of a track, in the order of their times. Samples override frames.
   bool schedule(const TrackBlock& block) noexcept { return schedule_.push(block); }
 
   // --- any thread
@@ -90,8 +90,8 @@ class HapticLoop {
     touch_mailbox_.store(touch, std::memory_order_release);
   }
 
-  /// The loop calls this for a wrench in every tick in which the pose is known, and adds that to
-  /// the wanted one, before every safety step.
+  /// The loop calls this in every tick in which the pose is known, and adds its wrench to the
+  /// wanted one before every safety step.
   WrenchCallback& callback() noexcept { return callback_; }
   const WrenchCallback& callback() const noexcept { return callback_; }
 
@@ -108,10 +108,10 @@ class HapticLoop {
   /// The time from when each frame was due on the screen until its wrench was reached.
   const LatencyHistogram& skew() const noexcept { return schedule_.skew(); }
 
-  /// Takes the oldest unread tick, for one reader. Ticks are dropped if they are not read.
+  /// Removes the oldest unread tick, for one reader. New ticks are dropped while the ring is full.
   bool pop_record(TickRecord& record) noexcept { return records_.pop(record); }
-  /// Takes only the forces of the oldest tick, for another reader. Those of kForces ticks are
-  /// stored; later ones are dropped until some are taken.
+  /// Removes the forces of the oldest tick and stores them in `tick`. For another reader. New
+  /// forces are dropped while those of kForces ticks are unread.
   bool pop_force(ForceTick& tick) noexcept { return forces_.pop(tick); }
 
   /// Why a lost device cannot be opened again although something is there, such as another device
@@ -155,8 +155,8 @@ class HapticLoop {
     double rises_s = 0;  ///< at most kMaxStep_ns
     double falls_s = 0;
   };
-  /// The time constant of the mean time between answers, by which the force is limited: within it a
-  /// released hand is stopped, and one late answer in a hundred hardly counts.
+  /// The time constant of the mean lateness of answers, which lowers the force limit: a released
+  /// grip is stopped within it, and one late answer in a hundred hardly counts.
   static constexpr double kLateness_s = 0.1;
 
   void energise() noexcept;
@@ -187,12 +187,12 @@ class HapticLoop {
   Seqlock<PlaybackClock> shared_clock_;
   ForceLimits limits_;
   Seqlock<LoopSnapshot> snapshot_;
-  Seqlock<std::array<char, 512>> refusal_{std::array<char, 512>{}};  ///< ends with zeros
+  Seqlock<std::array<char, 512>> refusal_{std::array<char, 512>{}};  ///< zero-terminated
   // Loop thread only.
   PlaybackClock clock_;
   Wrench exerted_;     ///< delivered by the last acknowledged command
-  Wrench above_rest_;  ///< its requested part, without the torque
-  Pose at_;            ///< after the last exchange
+  Wrench above_rest_;  ///< without the strings at rest and the commanded torque
+  Pose at_;            ///< pose after the last exchange
   touch::Rendering touch_;
   WrenchLimits safety_;
   GripBrake brake_{grip_->traits().body, grip_->traits().drive_lag_s};
@@ -200,18 +200,18 @@ class HapticLoop {
   IdleWatch idle_;
   DeviceState state_ = DeviceState::kClosed;
   double power_ = 0;               ///< GripCommand::power
-  double acknowledged_power_ = 0;  ///< of the last acknowledged command, from which it continues
+  double acknowledged_power_ = 0;  ///< power of the last acknowledged command
   MissingAnswers missing_;
-  int64_t unanswered_ns_ = 0;  ///< since the last answered tick
-  double late_s_ = 0;          ///< mean delay of an answer beyond a tick after the last
-  uint64_t gap_ticks_ = 0;     ///< since the newest frame was over
+  int64_t unanswered_ns_ = 0;  ///< time since the last answered tick
+  double late_s_ = 0;          ///< mean time between two answers beyond a tick
+  uint64_t gap_ticks_ = 0;     ///< ticks since the newest frame expired
   int64_t untrusted_ns_ = 0;   ///< time for which the pose has not been trusted
   int64_t unfelt_ns_ = 0;      ///< time for which no command was strong enough to be felt
   bool ticked_ = false;
   int64_t last_now_ns_ = 0;
   int64_t last_deadline_ns_ = 0;
   LoopCounters counters_;
-  std::string newest_refusal_;  ///< of the latest reopen()
+  std::string newest_refusal_;  ///< reason of the latest reopen()
 };
 
 }  // namespace spidar

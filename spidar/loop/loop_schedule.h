@@ -13,13 +13,13 @@
 
 namespace spidar {
 
-/// Sends a wrench earlier by the delay of the device, as far as the film is known ahead. Where it
-/// is known for less time than that, the device renders the wrench late, by an even delay.
+/// Sends each wrench earlier by the lag of the device, as far as the film is known in advance. If
+/// it is known for less time than the lag, the device renders all wrenches equally late.
 class LookAhead {
  public:
-  /// Returns the time to request at `running_ns`, with wrenches known up to `known_ns`. The time
-  /// hardly ever goes back, and passes `known_ns` only after `running_ns` has: then the film has
-  /// stopped, and the wrench expires.
+  /// Returns the running time whose wrench to send at `running_ns`, with wrenches known up to
+  /// `known_ns`. The result hardly ever decreases, and exceeds `known_ns` only when `running_ns`
+  /// does: then the film has stopped, and the wrench expires.
   int64_t ask_for(int64_t running_ns, int64_t lag_ns, int64_t known_ns) noexcept {
     const int64_t passed_ns = std::clamp<int64_t>(running_ns - before_ns_, 0, kLongest_ns);
     before_ns_ = running_ns;
@@ -29,7 +29,7 @@ class LookAhead {
     late_ns_ = lag_ns - lead_ns;
     return running_ns + lead_ns;
   }
-  /// Tells that nothing is known any more.
+  /// Call this when no wrench is known any more.
   void reset() noexcept {
     ahead_ns_ = kFarAhead_ns;
     late_ns_ = 0;
@@ -88,8 +88,8 @@ class LoopSchedule {
 
   // --- loop thread
 
-  /// The wrench to send at this moment to a device that renders it later by `lag_ns`; nothing
-  /// unless playing. Samples of a track replace frames.
+  /// Returns the wrench to send now to a device that renders it `lag_ns` later; nothing unless
+  /// playing. Samples of a track take precedence over frames.
   TimelineResult find(bool playing, int64_t running_ns, int64_t lag_ns = 0) noexcept;
 
   /// How much later than its frame the device renders the last found wrench.
@@ -124,7 +124,7 @@ class LoopSchedule {
   TrackReader track_;
   uint32_t timeline_generation_ = 0;
   LookAhead look_ahead_;
-  int64_t known_ns_ = INT64_MIN;   ///< until when frames or samples are known
+  int64_t known_ns_ = INT64_MIN;   ///< time until which frames or samples are known
   int64_t newest_ns_ = INT64_MIN;  ///< running time of the newest wrench in the timeline
   int64_t before_newest_ns_ = INT64_MIN;
   int64_t reached_ns_ = INT64_MIN;  ///< running time of the last reached frame

@@ -6,9 +6,9 @@
 
 namespace spidar {
 
-/// Decides whether a device still counts as connected. A device is lost after kMax exchanges in a
-/// row without an answer, and also if more than half of them lastingly have none: each answer makes
-/// up for one that is missing.
+/// Decides whether a device still counts as connected. Each answer cancels one missing answer, so a
+/// device is lost after kMax exchanges in a row without an answer, and also if more than half of
+/// its exchanges remain unanswered for long.
 class MissingAnswers {
  public:
   static constexpr int kMax = 20;

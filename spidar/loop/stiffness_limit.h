@@ -17,7 +17,7 @@ namespace spidar {
 constexpr double kUnmeasuredStiffness_N_m = 200;
 constexpr double kUnmeasuredLag_s = 0.005;
 
-/// Half a tick for the zero-order hold of the force; the pose is a tick old.
+/// One tick for the age of the pose, and half a tick for the zero-order hold of the force.
 constexpr double kLoopDelay_s = 1.5e-9 * static_cast<double>(kTick_ns);
 
 /// The delay from a motion of the grip to the resulting force: t_d in docs/strings.md.
@@ -42,7 +42,7 @@ inline double most_stiffness_N_m(const Profile& profile) noexcept {
   return profile.drive_lag_known ? most_N_m : std::min(most_N_m, kUnmeasuredStiffness_N_m);
 }
 
-/// The lag of these drives, or the one to assume.
+/// The known lag of these drives, or kUnmeasuredLag_s.
 inline double assumed_lag_s(const Profile& profile) noexcept {
   return profile.drive_lag_known ? profile.drive_lag_s : kUnmeasuredLag_s;
 }

@@ -99,24 +99,24 @@ struct ForceTick {
 struct LoopCounters {
   uint64_t ticks = 0;
   uint64_t overruns = 0;          ///< ticks that began more than one period late
-  uint64_t missed_deadlines = 0;  ///< deadlines skipped because of that
+  uint64_t missed_deadlines = 0;  ///< deadlines skipped because of overruns
   /// Ticks of playback without a force, because a frame was over and the next one had not come yet.
   /// They count when the next frame comes, so that the end of a film is no gap.
   uint64_t gap_ticks = 0;
   uint64_t exchange_errors = 0;
   uint64_t pose_errors = 0;
-  uint64_t string_faults = 0;      ///< how often a string became faulty, or a different one did
+  uint64_t string_faults = 0;      ///< how often a string was newly found faulty
   uint64_t rejected_wrenches = 0;  ///< not finite
   uint64_t refused_wrenches = 0;   ///< whose time is not later than that of the previous one
   uint64_t times_lost = 0;
-  uint64_t held_back_ticks = 0;  ///< in which the strings got less than wanted, see GripReport
+  uint64_t held_back_ticks = 0;  ///< ticks with less than the commanded wrench, see GripReport
 };
 
 struct LoopSnapshot {
   TickRecord last;
   LoopCounters counters;
   SafetyLimits limits;       ///< in effect in the last tick
-  int64_t untrusted_ns = 0;  ///< for how long the pose has not been trusted; 0 while it is
+  int64_t untrusted_ns = 0;  ///< how long the pose has not been trusted; 0 while it is
   int64_t unfelt_ns = 0;  ///< for how long the command has been too weak to feel; 0 while it is not
   VibrationBudget::State vibration{};
   /// How much later than its frame the device renders a wrench, because the film is not known as

@@ -12,7 +12,7 @@ namespace spidar {
 namespace {
 
 constexpr size_t kMaxRow_bytes = 2048;                       // 51 fields of at most 32 characters
-constexpr const char* kFirstColumns = "tick,monotonic_ns,";  // of every version
+constexpr const char* kFirstColumns = "tick,monotonic_ns,";  // the same in every version
 
 }  // namespace
 
@@ -118,11 +118,11 @@ LineWriter::Status TickTrace::status() const noexcept {
 
 TraceThread::TraceThread(const std::string& path, HapticLoop& loop, bool threaded)
     : loop_(loop), trace_(path) {
-  // After more ticks than are stored, a gap would follow the first ones.
+  // If the loop has already dropped ticks, a gap would follow the stored ones: discard them.
   const bool is_late = loop_.snapshot().counters.ticks >= HapticLoop::kRecords;
   for (TickRecord old; is_late && loop_.pop_record(old);) continue;
   if (!threaded) return;
-  // The reader of a pipe waits for it.
+  // Only a file may be written in the background: the reader of a pipe waits for the rows.
   thread_ = start_thread("spidar-trace", [this, is_file = std::filesystem::is_regular_file(path)] {
     if (is_file) request_background();
     run(is_file);

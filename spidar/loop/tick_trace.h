@@ -15,15 +15,15 @@
 
 namespace spidar {
 
-/// The columns of a tick in the haptic trace: a new column is a row here with its value. A frame_ns
-/// of INT64_MIN, which means no frame, becomes −1.
+/// Passes the columns of the haptic trace, with the values of `record`, to `to`. A frame_ns of
+/// INT64_MIN, which means no frame, becomes −1.
 void tick_fields(const TickRecord& record, FieldSink& to);
 
 /// Names of the columns, ending in their SI units, separated by commas, without a line end.
 std::string trace_header();
 
 /// Appends `record` as a row with a line end, in the order of trace_header(). Numbers are in the
-/// "C" locale and as short as they can be read back exactly.
+/// "C" locale, with the fewest digits that restore their exact values.
 void append_row(const TickRecord& record, std::string& csv);
 
 /// The haptic trace: a CSV file with one row for each tick. Used by one thread at a time, which
@@ -44,7 +44,7 @@ class TickTrace {
 
  private:
   LineWriter file_;
-  std::string row_;  ///< kept because its memory is reused
+  std::string row_;  ///< a member so that its memory is reused
   uint64_t last_tick_ = 0;
   uint64_t missing_ticks_ = 0;
 };

@@ -21,8 +21,8 @@ struct CallbackInput {
   uint32_t buttons = 0;   ///< as GripReport::buttons
 };
 
-/// A function of the application that the loop calls for a wrench in every tick. One thread sets
-/// the function, the loop calls it. A function that throws, or takes longer than kLongest_ns
+/// A function of the application that the loop calls in every tick to get a wrench. One thread sets
+/// the function, and the loop calls it. A function that throws, or takes longer than kLongest_ns
 /// kSlowInARow times in a row, is not called again.
 class WrenchCallback {
  public:
@@ -42,7 +42,7 @@ class WrenchCallback {
   void set(Function function, bool passive = true, double drive_lag_s = 0.005);
 
   State state() const noexcept { return state_.load(std::memory_order_acquire); }
-  /// With kThrew: what() of the exception, shortened to fit; "" if it was no std::exception.
+  /// With kThrew: what() of the exception, shortened to fit; "" if it was not a std::exception.
   const char* thrown() const noexcept { return thrown_.data(); }
 
   // --- loop thread
@@ -54,7 +54,7 @@ class WrenchCallback {
   Wrench call(const CallbackInput& input, const Eigen::Vector3d& beside_N,
               const SafetyLimits& limits) noexcept;
 
-  /// Call this after call(), with what the device exerts for the sum, see touch::EnergyBudget.
+  /// Call this after call(), with the wrench that the device exerts, see touch::EnergyBudget.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
     budget_.deliver(given, turn_rad);
   }
@@ -81,7 +81,7 @@ class WrenchCallback {
   std::unique_ptr<Called> owned_;
   uint64_t set_ = 0;  ///< number of functions so far
   std::atomic<Called*> called_{nullptr};
-  std::atomic<Called*> running_{nullptr};  ///< whose call has not returned; null if none
+  std::atomic<Called*> running_{nullptr};  ///< the function that is being called; null if none
   std::atomic<State> state_{State::kNone};
   std::array<char, 160> thrown_{};
   // Loop thread only.

@@ -55,12 +55,12 @@ Wrench WrenchChain::rates(const Wrench& wrench) noexcept {
   return rate_limits.apply(wrench.is_finite() ? wrench : Wrench{}, fresh, rates_s, set);
 }
 
-/// These and the limits in effect fall by the same steps, except for rounding and late ticks.
+/// The result of rates() falls like these limits, except for rounding and late ticks.
 Wrench WrenchChain::effect(const Wrench& wrench) noexcept {
   return limit_total(wrench, in_effect);
 }
 
-/// The parts across the motion and against it may be too much together.
+/// The parts of a wrench across the motion and against it may exceed the limits together.
 Wrench WrenchChain::cut(const Wrench& wrench) noexcept {
   if (!brakes) return wrench;
   const Wrench left = limit_total(grip_brake.cut(wrench, fresh), in_effect);

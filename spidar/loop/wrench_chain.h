@@ -18,8 +18,8 @@ namespace spidar {
 /// The limits of one tick. The loop owns the state of each.
 class WrenchChain {
  public:
-  /// Returns what the step leaves of the wrench that it receives. The chain runs its steps in the
-  /// order of their list, and docs/architecture.md has the same list (test `limit_chain`).
+  /// One step; `leave` returns the limited wrench. The chain runs the steps in the order of kSteps,
+  /// and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
@@ -28,9 +28,9 @@ class WrenchChain {
   };
   static const std::array<Step, 8> kSteps;
 
-  const SafetyLimits set;        ///< as they are set
-  const SafetyLimits in_effect;  ///< the set ones, or values that fall to them
-  const SafetyLimits braking;    ///< those, or what the strings exert at rest
+  const SafetyLimits set;        ///< the limits as they are set
+  const SafetyLimits in_effect;  ///< the set limits, or values that fall to them
+  const SafetyLimits braking;    ///< in effect, and at least what the strings exert at rest
   VibrationBudget& vibration_budget;
   GripBrake& grip_brake;
   WrenchLimits& rate_limits;
@@ -40,8 +40,8 @@ class WrenchChain {
   double rates_s;   ///< the time for which a force rises or falls in this tick
   double passed_s;  ///< since the last tick
   // Results.
-  bool brakes = false;    ///< the brake may have changed the wrench
-  bool rejected = false;  ///< whether it was fresh, but not finite
+  bool brakes = false;    ///< whether the brake may have changed the wrench
+  bool rejected = false;  ///< whether the wanted wrench was fresh, but not finite
 
   /// Passes `wanted` through all steps. Neither allocates, locks nor throws.
   Wrench apply(const Wrench& wanted) noexcept;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Precompiled: what many files of this folder include and what takes long to read. No file relies
-// on it; `meson setup -Db_pch=false` builds without it.
+// Precompiled headers: those that many files of this folder include, and that take long to parse.
+// No file relies on this one; `meson setup -Db_pch=false` builds without it.
 #include <algorithm>
 #include <array>
 #include <atomic>

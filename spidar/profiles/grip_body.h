@@ -6,7 +6,7 @@
 
 namespace spidar {
 
-/// Mass of a grip without a hand, from a hollow sphere to one with motors. No source states one.
+/// Range of the mass of a grip alone, from a hollow sphere to one with motors. No source states it.
 constexpr double kLightestGrip_kg = 0.034;
 constexpr double kHeaviestGrip_kg = 0.3;
 

@@ -19,7 +19,7 @@
 
 namespace spidar {
 
-/// A profile cannot be used. what() names file, line and field, the error and the remedy.
+/// Thrown for an unusable profile. what() names file, line and field, the error and the remedy.
 class ProfileError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -29,7 +29,7 @@ class ProfileError : public std::runtime_error {
 constexpr const char* kUnknownBoard = "unknown";
 
 struct StringDrive {
-  double min_tension_N = 0;  ///< which keeps the string taut
+  double min_tension_N = 0;  ///< keeps the string taut
   double max_tension_N = 0;
   double newtons_per_volt = 0;  ///< > 0; the sign is in motor_sign
   double metres_per_count = 0;  ///< > 0; the sign is in encoder_sign
@@ -77,7 +77,7 @@ struct Profile {
 
   std::string name;         ///< file name without ending
   std::string description;  ///< one line
-  std::string board;        ///< the controller of the source, see parse_profile()
+  std::string board;        ///< the kind of board, see parse_profile()
   StringGeometry geometry;  ///< in D (the files' left-handed tables are converted when read)
   std::array<StringDrive, kMaxStrings> drives{};  ///< geometry.count are used
   int dac_bits = 12;        ///< resolution of the D/A converters over dac_max_V
@@ -131,8 +131,8 @@ std::vector<std::string> list_profiles();
 inline constexpr const char* kDefaultProfile = "spidar-gcc";
 
 /// Returns how far the sum of `count` pulls, each from none to full, reaches in its weakest
-/// direction. The reachable set is a sum of segments, whose nearest face is parallel to two of
-/// them. −1 if all pulls lie in one line.
+/// direction. The reachable set is a zonotope, whose nearest face is parallel to two of the pulls.
+/// −1 if all pulls lie in one line.
 inline double least_reach(const Eigen::Matrix<double, 3, kMaxStrings>& pulls, int count) {
   double least = -1;
   for (int i = 0; i < count; ++i) {

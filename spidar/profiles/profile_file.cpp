@@ -17,8 +17,8 @@
 namespace spidar {
 namespace {
 
-/// A field of the parsed document, which must outlive this object, as must `file`. Every accessor
-/// throws ProfileError when the value has not the requested type.
+/// A field of the parsed document; the document and `file` must outlive this object. Every accessor
+/// throws ProfileError when the value does not have the requested type.
 class TomlField {
  public:
   TomlField(const std::string& file, const toml::node& node, std::string name = "")
@@ -87,7 +87,7 @@ class TomlField {
     return static_cast<int>(value);
   }
 
-  /// Finite; integers count as numbers.
+  /// Returns a finite number; integers count as numbers.
   double number() const {
     if (!node_->is_number()) wrong_type("a number");
     const double value = node_->is_integer() ? static_cast<double>(node_->as_integer()->get())
@@ -149,7 +149,7 @@ constexpr double kMinInertia_kg_m2 = 1e-7;
 constexpr double kMaxInertia_kg_m2 = 2e-3;
 // No D/A converter exceeds safety extra-low voltage (IEC 61140, 60 V of direct current).
 constexpr double kMaxDac_V = 60;
-// Less drives no amplifier of a motor either; the shipped profiles have 3.3 V or more.
+// No motor amplifier works with less; the shipped profiles have 3.3 V or more.
 constexpr double kMinDac_V = 0.1;
 constexpr int kMinDacBits = 8;
 constexpr int kMaxDacBits = 16;
@@ -158,7 +158,7 @@ constexpr double kMinSteps = 16;
 // No string of a hand-held device pulls more; the strongest of the shipped profiles have 20 N.
 constexpr double kMaxTension_N = 100;
 constexpr double kMinTension_N = 0.1;  // a weaker string moves no grip
-// No limit bounds the force of the strings at rest, which off the centre is about the pull of one.
+// No limit bounds the force of the strings at rest: off the centre, about the tension of one.
 constexpr double kMaxRest_N = kDefaultForce_N;
 // The windings of small motors have 2 to 60 s in data sheets; a longer time would be no protection.
 constexpr double kMinHeating_s = 1;
@@ -187,7 +187,7 @@ Eigen::Vector3d point(const TomlField& field, const Eigen::Array3d& scale) {
   return point_m;
 }
 
-/// The strings must hold the grip: pull it in every direction, and change with each of six motions.
+/// The strings must hold the grip: pull in every direction, and change length in all six motions.
 void check_hold(const TomlField& in, const StringGeometry& geometry) {
   const TomlField exits = in["exit"];
   for (size_t i = 0; i < exits.size(); ++i) {

@@ -11,7 +11,7 @@
 namespace spidar {
 
 /// A histogram of durations, such as the lateness of ticks, with `Bins` bins of `BinWidth_ns` and
-/// one for all longer durations. One thread adds, without a lock, any thread reads.
+/// one for all longer durations. One thread adds durations without a lock, and any thread reads.
 template <size_t Bins, int64_t BinWidth_ns>
 class DurationHistogram {
  public:

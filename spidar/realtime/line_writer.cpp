@@ -26,7 +26,7 @@ uint64_t lines_in(std::string_view text) {
   return static_cast<uint64_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// The reader of a pipe may act on the lines, as a motor does.
+/// Shorter for a pipe, because its reader may act on the lines, for example drive a motor.
 std::chrono::milliseconds period_of(int file) {
   constexpr std::chrono::milliseconds kOfPipe{1};
   struct stat status {};
@@ -82,8 +82,8 @@ struct LineWriter::Output {
     const SigpipeBlock no_sigpipe;
     Status done;
     while (!text.empty()) {
-      // A pipe takes so much completely or not at all. Writing into a file ends between two pages
-      // when the process is killed, and a page is a multiple of this.
+      // A pipe accepts PIPE_BUF bytes completely or not at all. When the process is killed, a write
+      // to a file ends at the end of a page, which is a multiple of PIPE_BUF.
       const std::string_view lines = first_lines(text, PIPE_BUF - written_bytes % PIPE_BUF);
       done.error = write_all(lines);
       if (done.error != 0) break;
@@ -128,7 +128,7 @@ struct LineWriter::Output {
   bool is_done() const { return waiting.empty() && in_work == 0; }
 
   const int file;
-  const std::chrono::milliseconds period;  // after which it is written
+  const std::chrono::milliseconds period;  // the interval between writes
   std::atomic<uint64_t> written_bytes{0};
   std::mutex mutex;  // guards all members below
   std::condition_variable changed;

@@ -11,17 +11,17 @@
 
 namespace spidar {
 
-/// Writes lines to a file, a pipe or a device whose other end may stand still: a reader that has
-/// stopped reading, or a network folder. A thread of its own writes, so that the caller does not
-/// wait. Lines that the other end does not take are dropped as a whole, and counted. A slow one
-/// loses nothing. Even when the process is killed, the last line of the output is complete, and
-/// lines that were added more than kPeriod ago are there.
+/// Writes lines to a file, a pipe or a device whose other end may stop accepting them: a stopped
+/// reader, or a network folder. A thread of its own writes, so that the caller does not
+/// wait. Lines that the other end does not accept are dropped as a whole, and counted. A slow
+/// reader loses nothing. Even when the process is killed, the last line of the output is complete,
+/// and lines that were added more than kPeriod ago are there.
 ///
 /// One thread at a time calls the methods.
 class LineWriter {
  public:
   static constexpr std::chrono::milliseconds kPeriod{50};
-  /// The most data that wait: ten seconds of a haptic trace, which has 0.4 MB a second.
+  /// The most data that may wait: ten seconds of a haptic trace, which has 0.4 MB a second.
   static constexpr size_t kMaxWaiting_bytes = size_t{4} << 20;
   /// The other end stands still when it has taken nothing for this time.
   static constexpr std::chrono::milliseconds kStandstill{500};
@@ -50,11 +50,11 @@ class LineWriter {
   void add(std::string_view lines);
   /// Returns when all lines are written, or the other end stands still.
   void flush();
-  /// Calls flush(), and drops lines that have not been taken by then. A thread that waits for the
-  /// system is left behind, and ends later.
+  /// Calls flush(), and drops lines that have not been taken by then. If the thread is blocked in
+  /// the system, it is detached and ends later.
   Status close();
 
-  /// The counts so far or, after close(), until then.
+  /// The counts so far; after close(), those at close().
   Status status() const;
 
  private:
@@ -66,9 +66,9 @@ class LineWriter {
 
   std::shared_ptr<Output> output_;
   std::thread thread_;
-  Status last_;  ///< of the closed output
+  Status last_;  ///< status of the closed output
   bool stuck_ = false;
-  uint64_t stuck_at_ = 0;  ///< bytes written by then
+  uint64_t stuck_at_ = 0;  ///< bytes written when the other end got stuck
 };
 
 }  // namespace spidar

@@ -21,8 +21,8 @@ struct Scheduling {
 
 /// The timing of all ticks since the thread was started. Readable while the thread runs.
 struct LoopTiming {
-  LatencyHistogram lateness;  ///< from the deadline to the beginning of the tick
-  LatencyHistogram cycle;     ///< from the beginning of the tick to its end, device included
+  LatencyHistogram lateness;  ///< time from the deadline to the beginning of the tick
+  LatencyHistogram cycle;     ///< time from the beginning of the tick to its end, with the exchange
 };
 
 /// Above the kernel's threaded interrupts (50), so that disk and network do not delay a tick; below

@@ -20,7 +20,7 @@ auto uninterrupted(const Call& call) noexcept {
   return result;
 }
 
-/// Repeats a call that waits for a limited time, which begins anew with each repetition.
+/// Repeats a call that waits for a limited time, until the deadline. Each repetition waits anew.
 template <typename Call>
 auto uninterrupted_until(int64_t monotonic_ns, const Call& call) noexcept {
   auto result = call();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures the lag of a device's drives while a hand holds the grip, and what follows from it.
+/// Measures the lag of a device's drives while a hand holds the grip, and judges the profile by it.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace spidar::selftest {
 struct DelaySettings {
   double peak_N = 0.4;
   int periods = 12;   ///< number of one-second periods, at least kFewestPeriods
-  uint32_t seed = 1;  ///< of the random phases
+  uint32_t seed = 1;  ///< seed of the random phases
 
   /// Fewer periods give too poor an estimate of the variance.
   static constexpr int kFewestPeriods = 6;
@@ -39,7 +39,7 @@ struct DelayTest {
   std::string error;          ///< why the test ended or has no result: a sentence, or empty
   bool is_of_device = false;  ///< `error` is a fault of the device, not only a missing result
   std::optional<LagFit> fit;
-  int periods = 0;  ///< that were used
+  int periods = 0;  ///< number of periods that were used
 
   bool measured() const noexcept { return error.empty() && fit; }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Whether the encoders count as a profile says, from moves by hand. The motors stay at zero.
+/// Checks by moves of a hand whether encoders count as a profile says. The motors stay at zero.
 #pragma once
 
 #include <array>

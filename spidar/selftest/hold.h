@@ -24,8 +24,8 @@ namespace spidar::selftest {
 /// Waits for the next millisecond. Returns false to end early.
 using Pace = std::function<bool()>;
 
-/// This program got no processor time, or was stopped, for so long that the guardian has set the
-/// motors to zero. The interrupted part of the test can be repeated, see repeated().
+/// Thrown when this program was stopped or got no processor time for so long that the guardian set
+/// the motors to zero. The interrupted part of the test can be repeated, see repeated().
 class ProcessSuspended : public DeviceError {
  public:
   using DeviceError::DeviceError;

@@ -68,8 +68,8 @@ class PeriodSums {
  public:
   explicit PeriodSums(double begin_s) : begin_s_(begin_s) {}
 
-  /// Tells that the grip is at `position_m` at `time_s`, and that `force_N` applies from then until
-  /// the next call. Times must rise; those outside the period are ignored.
+  /// Adds the position of the grip at `time_s`, and the force that applies from then until the next
+  /// call. Times must increase; those outside the period are ignored.
   void add(double time_s, double force_N, double position_m) noexcept;
 
   const std::array<std::complex<double>, kLines>& force() const noexcept { return force_; }

@@ -26,7 +26,7 @@ int encoder_sign(const Profile& profile, const WiringReport& report, int i) {
   return profile.drives[k].encoder_sign * (report.channel[k].encoder_reversed ? -1 : 1);
 }
 
-/// The result holds after the plugs are put right, too: a motor keeps its direction of rotation.
+/// The result also holds after the plugs are corrected: a motor keeps its direction of rotation.
 bool motor_reversed(const Profile& profile, const WiringReport& report, int i) {
   const int string = report.channel[static_cast<size_t>(i)].motor_string;
   return string >= 0 &&

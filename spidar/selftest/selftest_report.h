@@ -17,7 +17,7 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
                   const WiringReport& report);
 Json wiring_json(const Profile& profile, const WiringAnswers& answers, const WiringReport& report);
 
-/// `verdict` is that of the test, if the test has a result.
+/// `verdict` is valid only if the test has a result.
 void print_lag(std::ostream& out, const Profile& profile, const DelayTest& test,
                const LagVerdict& verdict);
 Json lag_json(const DelayTest& test, const LagVerdict& verdict);

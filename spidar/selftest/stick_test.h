@@ -19,15 +19,15 @@ struct StickTest {
   /// or there is no motor.
   static constexpr double kMin_m = 0.5e-3;
 
-  /// The motion along the force, as a grip, in metres: right, up, towards the viewer. Positive
-  /// values are correct; where a value is negative, the stick moved against the force.
+  /// The motion of the grip along the force: right, up, towards the viewer. Positive values are
+  /// correct; where a value is negative, the stick moved against the force.
   std::array<double, 3> moved_m{};
   /// The force of a spring that pulls the stick back, at the place to which the push moves it, as a
   /// fraction of the push. 0: none was found. Friction of the stick makes the spring look weaker.
   std::array<double, 3> spring{};
   /// The weakest spring that would have been found, because it moves the stick back by kMin_m.
   std::array<double, 3> least_spring{};
-  std::string description;  ///< of the open device
+  std::string description;  ///< description of the open device
   bool complete = false;    ///< false if the pace ended the test early
 };
 

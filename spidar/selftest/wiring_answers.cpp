@@ -92,7 +92,7 @@ class Asking {
 
   struct Pull {
     StringVector answer = StringVector::Zero();
-    /// From the rest before the pull to the rest after it.
+    /// The change from the rest before the pull to the rest after it.
     StringVector drift = StringVector::Zero();
   };
 

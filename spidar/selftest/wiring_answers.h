@@ -36,16 +36,16 @@ struct WiringAnswers {
   /// The answer of an encoder (row) to the pull of a motor (column).
   Eigen::Matrix<double, kMaxStrings, kMaxStrings> counts = decltype(counts)::Zero();
   StringVector pulled_N = StringVector::Zero();  ///< the additional tension of each motor
-  /// The motor pulled with the sign opposite to the profile's.
+  /// Whether the motor pulled with the sign opposite to the profile's.
   std::array<bool, kMaxStrings> reversed{};
-  /// The answers to its pulls differed at every attempt, because the hand moved.
+  /// Whether the answers to the motor's pulls differed at every attempt, because the hand moved.
   std::array<bool, kMaxStrings> unsteady{};
-  bool complete = false;  ///< false if the pace ended it early
+  bool complete = false;  ///< false if the pace ended the test early
 };
 
 /// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
-/// loosely. Each string is pulled twice. When the two answers differ, or the rests between which
-/// they lie, both pulls are repeated, up to three times. Takes a second a string with the default
+/// loosely. Each string is pulled twice. When the two answers differ, or the counts at rest around
+/// them, both pulls are repeated, up to three times. Takes a second a string with the default
 /// settings, and as much again where pulls are repeated or a motor is tried with the other sign.
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away by 30 mm, further than a

@@ -33,7 +33,7 @@ struct WiringReport {
 
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
-  /// Whether the correlation, also of each motor's answers, in direction and size, is sufficient.
+  /// Whether the correlation is sufficient, and no motor is unclear.
   bool understood() const noexcept;
   bool as_profile() const noexcept;
   /// Whether a profile can describe the wiring: the wiring differs only in signs, and in strings
@@ -57,8 +57,8 @@ WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 /// is not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
-/// How often test_wiring() measures: a moving hand makes other strings unclear each time, a wrong
-/// wire the same ones.
+/// How often test_wiring() measures at most: a moving hand makes different strings unclear each
+/// time, a wrong wire always the same ones.
 constexpr int kWiringTries = 3;
 
 /// Runs measure_wiring() and judge_wiring(); the report is not valid if the answers are not

@@ -16,12 +16,12 @@ namespace spidar {
 /// if they have force feedback. A machine without USB has no USB devices.
 std::vector<DeviceInfo> list_boards();
 
-/// Returns the profile that the name of a device alone determines, and the general default profile
-/// for an unknown name. Empty for a real board with strings. Accesses no bus.
+/// Returns the profile that follows from the name of a device alone: empty for a real board with
+/// strings, and kDefaultProfile for an unknown name. Accesses no bus.
 std::string default_profile(const std::string& device);
 
-/// Returns what the name of a device tells about it. The device need not be plugged in, and nothing
-/// is opened. The name in the result is empty if make_grip() does not know the device.
+/// Returns what is known about a device from its name. The device need not be plugged in, and
+/// nothing is opened. DeviceInfo::name is empty if make_grip() does not know the device.
 DeviceInfo board_info(const std::string& device);
 
 /// The device name that stands for the first usable one of auto_devices().
@@ -45,7 +45,7 @@ struct AutoDevice {
 /// last, also with `why_not`. Opens nothing, so a listed device may be in use or forbidden.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
-/// Whether two profiles are the same by name or, for files, by place.
+/// Whether two profiles have the same name or are the same file.
 bool is_same_profile(const std::string& one, const std::string& other);
 
 }  // namespace spidar

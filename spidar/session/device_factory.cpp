@@ -57,7 +57,7 @@ std::string called_here(const std::string& word) {
   return {};
 }
 
-/// The error for a kind of device without saying which device: lists those that are plugged in.
+/// The error for a name that gives only the kind of a device; lists those that are plugged in.
 DeviceError unclear(const DeviceKind& kind) {
   const std::string names = kind.names;
   std::string there;
@@ -77,7 +77,7 @@ std::string simulated_names() {
   return names;
 }
 
-/// Calls `make`, whose std::invalid_argument means that such mechanics do not exist.
+/// Calls `make`, whose std::invalid_argument means that the profile's mechanics are impossible.
 template <typename Make>
 auto simulating(const std::string& text, const Profile& profile, const Make& make) {
   try {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Devices by name.
+/// Makes devices by name.
 #pragma once
 
 #include <memory>
@@ -17,9 +17,8 @@ namespace spidar {
 /// Whether this device moves nothing real: "sim", "sim:sh4", …
 bool is_simulated(const std::string& spec);
 
-/// `spec` is "sim", the simulated device; "sim:BOARD", the simulation behind the packets of a
-/// board; or the name of a real device, up to the colon of one of devices(), with what follows it
-/// there:
+/// `spec` is "sim", the simulated device; "sim:BOARD", the simulation behind an emulated board; or
+/// the name of a real device, in one of these forms:
 ///   usb, usb:ID             ID: rotary switch, serial number or bus path
 ///   uart:PATH[,PATH]        serial lines
 ///   ff, ff:PATH[,OPTION]…   the first one, or this file; OPTION: axes=1 for a wheel or axes=2 for

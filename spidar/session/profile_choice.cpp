@@ -32,7 +32,6 @@ namespace {
 
 constexpr size_t kMaxBoards_bytes = 1 << 20;  // some ten thousand boards
 
-/// The key of a board in the file.
 std::string key_of(const std::string& usb_id, const std::string& serial) {
   return usb_id + " " + serial;
 }

@@ -3,7 +3,7 @@
 /// Which profile drives a device.
 ///
 /// A wrong profile exerts other forces than wanted, and may pull where it should release, because
-/// boards do not report which frame, motors and encoders are connected to them. So a board gets no
+/// boards do not report which frame, motors and encoders are connected to them. A board gets no
 /// force before somebody has named a profile, now or once with `spidarctl choose`.
 #pragma once
 
@@ -31,7 +31,7 @@ std::string remembered_profile(const std::string& usb_id, const std::string& ser
 void store_profile(const std::string& usb_id, const std::string& serial,
                    const std::string& profile);
 
-/// Says that nobody has named a profile for this board, and lists those that fit it.
+/// A message that nobody has named a profile for this board; lists the profiles that fit it.
 std::string without_profile(const DeviceInfo& board);
 
 /// The names of the profiles that fit a board: the board can drive them, and their source names a

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What the command-line programs do alike: how they take their arguments and how they end.
+/// Common parts of the command-line programs: arguments, errors and exit statuses.
 #pragma once
 
 #include <cerrno>
@@ -21,7 +21,7 @@ constexpr int kFailed = 1;
 constexpr int kWrongUsage = 2;
 constexpr int kInterrupted = 130;  ///< 128 + SIGINT, as shells report it
 
-/// An invalid command line. what() says what was wrong and what would be right.
+/// Thrown for an invalid command line. what() says what was wrong and what would be right.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -41,8 +41,8 @@ inline int status_after_printing(const std::string& program, int status) {
   return status == kDone ? kFailed : status;
 }
 
-/// Puts "./" before names of files that begin with a dash, so that they are not taken for options:
-/// the name has a point, and the file exists. Arguments after "--" may be properties.
+/// Puts "./" before names of files that begin with a dash, so that they are not taken for options,
+/// if the name has a point and the file exists. Arguments after "--" may be properties.
 inline void mark_files(int argc, char** argv, bool has_properties_last = true) {
   static std::deque<std::string> marked;  // lives as long as argv
   for (int i = 1; i < argc; ++i) {

@@ -21,7 +21,7 @@ namespace spidar::tools {
 
 struct Program {
   CLI::App app{"Lists, inspects, tests and calibrates SPIDARs.", "spidarctl"};
-  int status = kDone;  ///< of the command that ran
+  int status = kDone;  ///< status of the command that ran
 };
 
 /// Adds a command. After parsing, `run` is called and returns the exit status; it may throw

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Renders the contact of the grip with the frame on the screen. The mailbox brings the frames.
+/// Renders the contact of the grip with the frame on the screen. A mailbox passes on the frames.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ struct Surface {
   ContactSettings contact;  ///< valid
   HeightField relief;
   HeightField texture;
-  uint32_t generation = 0;  ///< of the mailbox at begin()
+  uint32_t generation = 0;  ///< the one passed to begin()
 };
 
 /// A wait-free single-producer, single-consumer queue that copies no frames. The writer fills a
@@ -82,16 +82,16 @@ class Mailbox {
   alignas(64) std::atomic<uint32_t> generation_{0};
 };
 
-/// A surface that is too stiff for the lag of the drives shakes a grip that presses on it, at 15 to
-/// 60 Hz, faster than a hand trembles. The velocity across the surface, less its slow part, then
-/// changes its sign in even intervals. A tap has two or three such intervals. While the grip
+/// Detects a surface that is too stiff for the lag of the drives: it shakes a grip that presses on
+/// it at 15 to 60 Hz, faster than a hand trembles. The velocity across the surface, minus its slow
+/// part, then changes sign at even intervals. A tap has two or three such intervals. While the grip
 /// strokes along the surface, the relief itself may shake the grip, so strokes do not count.
 class ShakeWatch {
  public:
   static constexpr double kSlowest_Hz = 15;
   static constexpr double kFastest_Hz = 60;
-  /// The velocity must reach this between two changes of sign. A force of 0.5 N moves a grip of 0.3
-  /// kg as fast at 30 Hz; the steps of an encoder give errors of 1.5 mm/s.
+  /// The velocity must reach this between two changes of sign. A force of 0.5 N at 30 Hz moves a
+  /// grip of 0.3 kg this fast; the steps of an encoder give errors of 1.5 mm/s.
   static constexpr double kMin_m_s = 0.008;
   static constexpr double kStroke_m_s = 0.05;
   static constexpr int kIntervals = 8;  ///< this many even intervals in a row count as shaking
@@ -99,7 +99,7 @@ class ShakeWatch {
   static constexpr double kLeft = 0.7;
   static constexpr double kMinFraction = 0.1;
 
-  /// Takes a tick in contact: the velocity of the grip and the unit normal of the surface.
+  /// Adds a tick in contact, with the velocity of the grip and the unit normal of the surface.
   void update(const Eigen::Vector3d& velocity_m_s, const Eigen::Vector3d& normal,
               double dt_s) noexcept {
     const double across_m_s = velocity_m_s.dot(normal);
@@ -127,7 +127,7 @@ class ShakeWatch {
   static constexpr double kSlow_s = 0.02;  ///< 8 Hz
 
   double slow_m_s_ = 0;
-  double most_m_s_ = 0;  ///< the largest since the sign changed
+  double most_m_s_ = 0;  ///< the largest speed since the sign changed
   double since_s_ = 0;
   bool rises_ = false;
   int intervals_ = 0;
@@ -136,7 +136,7 @@ class ShakeWatch {
 
 /// The state of the contact in one tick.
 struct Contact {
-  bool has_surface = false;  ///< the current frame can be touched
+  bool has_surface = false;  ///< whether the current frame can be touched
   bool touching = false;
   double depth_m = 0;  ///< penetration of the grip along the surface normal; 0 unless touching
   /// The touched point of the surface, device frame; 0 unless touching.
@@ -176,8 +176,8 @@ class Rendering {
   }
   void set_beside(const Eigen::Vector3d& force_N) noexcept { beside_N_ = force_N; }
 
-  /// Call this after tick(), with what the device exerts for the contact and the other force, see
-  /// touch::EnergyBudget.
+  /// Call this after tick(), with the wrench that the device exerts for the contact and the other
+  /// force, see touch::EnergyBudget.
   void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
     contact_.deliver(given, turn_rad);
   }

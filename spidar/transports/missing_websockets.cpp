@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The kinds of a build without libwebsockets.
+// The WebSocketTransport of a build without libwebsockets: it cannot be opened.
 #include "spidar/device.h"
 #include "spidar/transports/websocket_transport.h"
 

@@ -129,7 +129,7 @@ void TtyTransport::fail(const std::string& what, SourceLocation location) {
 
 void TtyTransport::open() {
   close();
-  // Another device may do something unknown when it is opened.
+  // Check before opening: opening another device may have unknown effects.
   if (first_.known() && access(path_.c_str(), F_OK) == 0) {
     first_.require(name_, tty_identity(path_));
   }

@@ -22,7 +22,7 @@ std::vector<TtyLine> list_tty_lines(const std::string& folder = "/dev");
 /// an adapter. `sysfs` is where the kernel describes its devices.
 DeviceIdentity tty_identity(const std::string& path, const std::string& sysfs = "/sys");
 
-/// A serial line in raw mode, 8N1, without flow control, with low latency if the driver can.
+/// A serial line in raw mode, 8N1, without flow control, with low latency where supported.
 class TtyTransport final : public Transport {
  public:
   /// `name` is the device's, for error messages; `baud` any rate that the driver accepts.

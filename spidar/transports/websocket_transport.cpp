@@ -25,7 +25,7 @@ constexpr size_t kLongest = 4096;
 /// More than the files of a connection and of its loop. Without a limit, libwebsockets fills tables
 /// for as many files as the process may open.
 constexpr unsigned kMostFiles = 16;
-/// The longest answer, bytes. A service for devices sends no longer one.
+/// The longest answer, bytes. No device service sends a longer one.
 constexpr size_t kMax = 1 << 20;
 
 /// Wakes the loop of libwebsockets, which may look at its timers just before it waits.
@@ -54,7 +54,7 @@ class WebSocketTransport::Connection {
   bool receive(int64_t deadline_ns) {
     return run([this] { return complete_ || gone(); }, deadline_ns) && finish();
   }
-  /// Reads and drops what has arrived, until there is no more.
+  /// Reads and drops received data until there is no more, or until `until_ns`.
   Unasked drop_unasked(int64_t until_ns);
   void send(std::initializer_list<ByteView> packets) noexcept;
 
@@ -100,7 +100,7 @@ WebSocketTransport::Connection::Connection(uint16_t port) {
   about.protocols = protocols_.data();
   about.user = this;
   about.fd_limit_per_thread = kMostFiles;
-  about.http_proxy_address = "";  // not that of the environment: the service is on this computer
+  about.http_proxy_address = "";  // no proxy of the environment: the service is on this computer
   // libwebsockets ignores SIGPIPE for the whole process, although it sends with MSG_NOSIGNAL.
   struct sigaction of_process {};
   sigaction(SIGPIPE, nullptr, &of_process);
@@ -207,7 +207,7 @@ bool WebSocketTransport::Connection::run(const Done& done, int64_t deadline_ns) 
     if (lws_service(context_, 0) < 0) state_ = State::kGone;
     if (gone()) break;
   }
-  // From version 4.3.5 on, libwebsockets ends the process if there is no function to be called.
+  // From version 4.3.5 on, libwebsockets ends the process if the function is null, even here.
   lws_sul_schedule(context_, 0, &alarm_.entry, Alarm::ring, LWS_SET_TIMER_USEC_CANCEL);
   return done();
 }

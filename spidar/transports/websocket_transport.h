@@ -29,17 +29,16 @@ inline bool is_listening(uint16_t port) {
   return listening;
 }
 
-/// Exchanges with a service on this computer that answers each message on a WebSocket with one.
-/// libwebsockets does the work, in the thread that calls: its loop runs only inside of these
-/// functions. It was preferred to libsoup, which aborts the process if the player has loaded
-/// libsoup 2.4 as well.
+/// A WebSocket connection to a service on this computer that answers each message with one message.
+/// libwebsockets works in the calling thread: its event loop runs only inside these functions. It
+/// was preferred to libsoup, which aborts the process if the player has loaded libsoup 2.4 as well.
 ///
 /// A message is sent only after the answer to the previous one. After a timeout the next exchange
 /// waits for that answer first, and drops it, so that messages never queue up in the service. A
-/// message counts as the answer if it has begun to arrive after ours was written.
+/// message counts as the answer if it has begun to arrive after the request was written.
 class WebSocketTransport final : public Transport {
  public:
-  /// `name` is for messages, `cure` says what to do when nothing answers at the port.
+  /// `name` is for error messages; `cure` says what to do when nothing answers at the port.
   WebSocketTransport(std::string name, uint16_t port, std::string cure);
   ~WebSocketTransport() override;
 

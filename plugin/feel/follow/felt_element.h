@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// What spidar-feel does with the element that renders the force: sets its properties from the
+/// Functions for the element that renders the force: spidar-feel sets its properties from the
 /// command line, and prints its messages.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spidar::follow {
 
-/// Prints a text for people, shortened because its names and addresses come from other programs,
+/// Prints a text for people. Shortens it, because its names and addresses come from other programs,
 /// which may send megabytes. Any thread.
 void print_message(const std::string& text);
 
@@ -27,7 +27,7 @@ std::optional<bool> wants_window(const std::vector<std::string>& properties);
 
 bool has_display();
 
-/// Sets NAME=VALUE and preset=NAME. Returns the names that `felt` does not have, with commas.
+/// Sets NAME=VALUE and preset=NAME. Returns the names that `felt` lacks, with commas.
 /// debug-window is left out, because another element then shows the window.
 std::string set_properties(GstElement* felt, const std::vector<std::string>& properties);
 

@@ -24,7 +24,7 @@ bool exists(const std::string& path) {
   return std::filesystem::exists(path, ignored);
 }
 
-/// Returns an empty text if the URI has another form, or names another machine.
+/// Returns an empty string if the URI has another form, or names another machine.
 std::string path_of_uri(const std::string& uri) {
   g_autofree gchar* host = nullptr;
   g_autofree gchar* path = g_filename_from_uri(uri.c_str(), &host, nullptr);
@@ -33,7 +33,7 @@ std::string path_of_uri(const std::string& uri) {
   return path && is_here ? path : "";
 }
 
-/// Escapes characters that stand for themselves: each '#', and each '%' not before two digits.
+/// Escapes literal characters: each '#', and each '%' that does not precede two hex digits.
 std::string escaped(const std::string& uri) {
   std::string result;
   for (size_t i = 0; i < uri.size(); ++i) {

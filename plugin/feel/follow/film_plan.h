@@ -18,12 +18,12 @@ struct FilmPlan {
   std::string remark;    ///< printed when the film is followed: why its track is not felt
 };
 
-/// The path that a player means by a path, by a URI, or by a URI whose '#' and '%' are not escaped,
-/// as some players write them. Empty if the path is not a file of this machine.
+/// Returns the path of an address, which is a path, a URI, or a URI whose '#' and '%' are not
+/// escaped, as some players write it. Empty if the address is not a file on this machine.
 std::string path_of(const std::string& address);
 
-/// Plans what is felt of an address that a player reports, by reading the film. Opens only regular
-/// files, and accepts http and https unread. May wait for a disk, so must not run in a main loop.
+/// Plans what is felt of the film at an address that a player reports. Reads only regular files;
+/// accepts http and https unread. May wait for a disk, so must not run in a main loop.
 FilmPlan plan_film(const std::string& address, const std::atomic<bool>* stopped = nullptr);
 
 }  // namespace spidar::follow

@@ -21,13 +21,13 @@
 namespace spidar::follow {
 namespace {
 
-/// A larger error is corrected by a seek: at 2 % of the time, a slow correction would take seconds.
+/// A larger error is corrected at once: a slow correction, by 2 % of the time, would take seconds.
 constexpr int64_t kSmall_ns = 60'000'000;
-/// Until the first reports after a jump, only the target of the jump is known.
+/// For this time after a jump, the position of the player is not known well.
 constexpr int64_t kSettles_ns = 1'000'000'000;
-/// A larger jump needs other parts of the film; a smaller one only another time for them.
+/// A larger error needs a seek; for a smaller one, another base time is enough.
 constexpr int64_t kNear_ns = 500'000'000;
-/// A pause takes a picture at most.
+/// The time limit for a pause, which takes as long as one picture at most.
 constexpr GstClockTime kLongestPause = 200 * GST_MSECOND;
 
 /// Links the first stream that is a haptic track.
@@ -58,7 +58,7 @@ class FollowedFilm {
         }) {
     const std::optional<bool> window = wants_window(properties_);
     build(window.value_or(false));
-    check();  // reports which device that is
+    check();  // sets is_simulated_
     if (is_simulated_ && !window && has_display()) build(true);
     gst_element_set_state(pipeline_.get(), GST_STATE_PAUSED);
   }
@@ -87,8 +87,8 @@ class FollowedFilm {
     return !failed_;
   }
 
-  /// Follows a player that plays at `rate` and is at this position. Small errors are corrected
-  /// slowly, large ones by a seek.
+  /// Follows a player that plays at `rate` and is at this position. Corrects small errors slowly,
+  /// larger ones at once, and the largest by a seek.
   void follow(int64_t now_ns, int64_t position_ns, double rate) {
     if (!ready_) return;
     const int64_t error_ns = position_ns - position_at(now_ns);
@@ -105,7 +105,7 @@ class FollowedFilm {
     set_base_time(base_ns_ - std::llround(static_cast<double>(shift_ns) / rate_));
   }
 
-  /// Rests with the player, at this position if known.
+  /// Pauses like the player, at `position_ns` if known.
   void rest(std::optional<int64_t> position_ns) {
     pause();
     if (!ready_ || !position_ns) return;
@@ -181,7 +181,7 @@ class FollowedFilm {
     begins_ = plan_.track.empty() ? plan_.name + " is analysed" : "";
   }
 
-  /// A seek of the debug window is for the player, which this film then follows.
+  /// Turns a seek of the debug window into a request to the player, which this film then follows.
   static GstPadProbeReturn take_seek(GstPad*, GstPadProbeInfo* info, gpointer user) {
     auto& self = *static_cast<FollowedFilm*>(user);
     GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
@@ -195,7 +195,7 @@ class FollowedFilm {
     return GST_PAD_PROBE_DROP;
   }
 
-  /// This signal means that all streams are known.
+  /// Called at no-more-pads: all streams are known.
   static void choose_stream(GstElement* decoder, gpointer user) {
     auto& self = *static_cast<FollowedFilm*>(user);
     const Ref<GstElement> convert(gst_bin_get_by_name(GST_BIN(self.pipeline_.get()), "convert"));
@@ -268,7 +268,7 @@ class FollowedFilm {
     gst_element_get_state(pipeline_.get(), nullptr, nullptr, kLongestPause);
     check();
     ready_ = false;
-    // The rest also holds when the position is before the film.
+    // Not clamped to 0: the player may be before the film.
     paused_at_ns_ = position_ns;
     rate_ = rate;
     seek_began_ns_ = monotonic_now_ns();
@@ -300,7 +300,7 @@ class FollowedFilm {
   int64_t base_ns_ = 0;
   int64_t paused_at_ns_ = 0;
   int64_t checked_ns_ = 0;  ///< when follow() last checked the position
-  int64_t settled_ns_ = 0;  ///< from when on the player's position is known well
+  int64_t settled_ns_ = 0;  ///< from this time on, the player's position is known well
   // The segment: a position and its running time.
   int64_t begin_position_ns_ = 0, begin_running_ns_ = 0;
   int64_t seek_began_ns_ = 0, seek_took_ns_ = 0;
@@ -308,7 +308,7 @@ class FollowedFilm {
 
 /// As often as the loop receives the playback clock.
 constexpr std::chrono::milliseconds kTick{10};
-/// An older goal means that the main loop stands still, or the machine is very busy.
+/// An older goal means that the main loop is blocked, or the machine is very busy.
 constexpr int64_t kStale_ns = 300'000'000;
 
 /// Returns false when the film has failed.
@@ -360,7 +360,7 @@ void FilmThread::run() {
     lock.unlock();
     if (goal.plan != plan) {
       plan = goal.plan;
-      film.reset();  // which releases the device for the next film
+      film.reset();  // releases the device for the next film
       try {
         if (plan) film = std::make_unique<FollowedFilm>(*plan, properties_);
       } catch (const std::runtime_error& error) {

@@ -42,7 +42,7 @@ class FilmThread {
   /// that does not answer delays that thread, and not the main loop. `properties` are those of
   /// spidarmotion, NAME=VALUE.
   explicit FilmThread(std::vector<std::string> properties);
-  /// Call end() before.
+  /// Call end() first.
   ~FilmThread();
   FilmThread(const FilmThread&) = delete;
   FilmThread& operator=(const FilmThread&) = delete;

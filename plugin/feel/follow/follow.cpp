@@ -37,7 +37,7 @@ class Follower {
         thread_(std::make_unique<FilmThread>(std::move(properties))) {
     timer_ = g_timeout_add(kTick_ms, tick, this);
   }
-  /// Call end() before.
+  /// Call end() first.
   ~Follower() {
     g_cancellable_cancel(ended_.get());
     g_source_remove(timer_);
@@ -46,7 +46,7 @@ class Follower {
   Follower& operator=(const Follower&) = delete;
 
   /// Returns false when a file, a network or a device delays the end for longer than kEnd. The
-  /// process must then end as it is; its guardian sets the motors to zero.
+  /// process must then exit without cleaning up; its guardian sets the motors to zero.
   bool end() {
     stopped_ = true;
     const int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kEnd).count();
@@ -61,12 +61,12 @@ class Follower {
   /// As often as the loop receives the playback clock.
   static constexpr guint kTick_ms = 10;
   static constexpr int64_t kSearch_ns = 250'000'000;
-  /// A player that reports the same position for so long stands still: it loads, or is stopped. VLC
+  /// A player that reports the same position for this long is stalled: it loads, or is stopped. VLC
   /// reports a position every 0.37 s.
   static constexpr int64_t kStandstill_ns = 1'000'000'000;
   /// After this time, a standstill is reported.
   static constexpr int64_t kLost_ns = 3'000'000'000;
-  /// An answer takes a millisecond, and some tens of them on a busy machine.
+  /// The force rests after this time without an answer, which takes at most tens of milliseconds.
   static constexpr int64_t kNoAnswer_ns = 300'000'000;
   /// For this time, no paused player is followed, because others have yet to report that they play.
   static constexpr int64_t kSettle_ns = 1'000'000'000;
@@ -155,7 +155,7 @@ class Follower {
     state_ = state;
   }
 
-  /// Tells that the next reported position begins a playback.
+  /// Begins a playback: the next reported position resets the filter.
   void begin() {
     is_beginning_ = is_placed_ = true;
     began_ns_ = monotonic_now_ns();
@@ -215,7 +215,7 @@ class Follower {
     view.is_placed = &player != player_ || is_placed_;
     const std::string& uri = player.state()->uri;
     if (view.status == PlayerStatus::kStopped || uri.empty()) return view;
-    // Browsers play pages.
+    // Only a named player may play what is not a file: browsers report pages.
     if (name_.empty() && path_of(uri).empty()) return view;
     used_.insert(uri);
     const auto plan = plan_of(uri);
@@ -256,7 +256,7 @@ class Follower {
     if (!player_ && is_settled) say_why_none(views, players);
   }
 
-  /// Forgets files that nobody plays any more, so that a changed file is examined again.
+  /// Forgets films that no player plays any more, so that a changed file is examined again.
   void forget_films() {
     for (auto i = plans_.begin(); i != plans_.end();) {
       i = i->second && used_.count(i->first) == 0 ? plans_.erase(i) : std::next(i);
@@ -276,7 +276,7 @@ class Follower {
     take_state(*player_);
   }
 
-  // --- what is said -----------------------------------------------------------------------------
+  // --- messages ---------------------------------------------------------------------------------
 
   void tell_once(const std::string& text) {
     if (said_.size() >= kMaxSaid) said_.clear();
@@ -373,7 +373,7 @@ class Follower {
     if (toggles) player_->toggle();
   }
 
-  /// mpv reports the position of the picture that it shows next.
+  /// How far reported positions are ahead: mpv reports that of the picture that it shows next.
   int64_t lead_ns(const FilmPlan& plan) const {
     return short_name(player_->bus_name()) == "mpv" ? plan.frame_ns : 0;
   }
@@ -414,7 +414,7 @@ void lose_bus(GDBusConnection*, gboolean, GError*, gpointer loop) {
   quit(loop);
 }
 
-/// Returns null, with the reason in `error`, after kAnswer_ms at the latest, or when `loop` quits.
+/// Returns null, with the reason in `error`, after kLimit_ms or when `loop` quits.
 Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
   struct Call {
     GMainLoop* loop;
@@ -433,7 +433,7 @@ Ref<GDBusConnection> connect(GMainLoop* loop, std::string& error) {
     if (failed) answered.error = failed->message;
     if (answered.is_waited_for) g_main_loop_quit(answered.loop);
   };
-  constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that is started for this call needs a moment
+  constexpr guint kLimit_ms = 5 * kAnswer_ms;  // a bus that this call starts needs longer
   kept->error = "it does not answer";
   const guint timer = g_timeout_add(kLimit_ms, quit, loop);
   g_bus_get(G_BUS_TYPE_SESSION, nullptr, take, call);
@@ -471,7 +471,7 @@ int run(const std::string& name, const std::vector<std::string>& properties) {
   } else if (!is_interrupted) {
     print_message("there is no session bus, by which players are followed: " + error);
   }
-  // Delayed threads still run.
+  // Threads that have not ended in time still run.
   if (!has_ended) {
     std::fflush(nullptr);
     _exit(bus || is_interrupted ? 0 : 1);

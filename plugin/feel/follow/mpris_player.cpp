@@ -17,7 +17,7 @@ constexpr const char* kPrefix = "org.mpris.MediaPlayer2.";
 constexpr const char* kPath = "/org/mpris/MediaPlayer2";
 constexpr const char* kPlayer = "org.mpris.MediaPlayer2.Player";
 constexpr const char* kProperties = "org.freedesktop.DBus.Properties";
-/// The track that players without a list of tracks name. SetPosition needs a list.
+/// The track ID that players without a track list report. SetPosition needs a track list.
 constexpr const char* kNoTrack = "/org/mpris/MediaPlayer2/TrackList/NoTrack";
 constexpr const char* kBus = "org.freedesktop.DBus";
 /// More than a person has; each player is queried once a second.
@@ -84,7 +84,7 @@ PlayerState state_of(GVariant* properties) {
   return state;
 }
 
-/// Accepts any number that a player may report.
+/// Limits the position to one year, because a player may report any number.
 int64_t ns_of(gint64 position_us) {
   constexpr gint64 kMax_us = 1'000'000 * gint64{365 * 24 * 3600};
   return 1000 * std::clamp(position_us, -kMax_us, kMax_us);

@@ -35,12 +35,12 @@ std::string short_name(const std::string& bus_name);
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
                   std::function<void(std::optional<std::vector<std::string>>)> take);
 
-/// A player of the session bus, by MPRIS (https://specifications.freedesktop.org/mpris-spec). No
-/// call waits, and each has a deadline. Callbacks run in the main loop; times are monotonic.
+/// A media player on the session bus (https://specifications.freedesktop.org/mpris-spec). No call
+/// blocks, and each has a deadline. Callbacks run in the main loop; times are monotonic.
 class Player {
  public:
   struct Told {
-    std::function<void(Player&)> state;  ///< called when a state has come
+    std::function<void(Player&)> state;  ///< called when a state was received
     /// Called for a player that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
     std::function<void(Player&)> refusal;  ///< called when toggle() or seek() is refused

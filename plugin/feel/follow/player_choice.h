@@ -23,13 +23,12 @@ struct PlayerView {
   bool is_placed = true;  ///< whether the player reports its position in the film
 };
 
-/// Whether a player of this name only repeats what another one reports, and later than that one.
+/// Whether a player of this name only relays, with a delay, what another one reports.
 bool repeats_another(const std::string& name);
 
-/// Returns the index of the player that a person means; nothing if there is none. A player that
-/// plays comes before a paused one, then one that reports its position before one that does not,
-/// then `followed`, which is followed now, before others. Players that repeat another are left out
-/// unless `is_named`: the user has named them.
+/// Returns the index of the player to follow; nothing if there is none. Prefers playing players to
+/// paused ones, then those that report their position, then `followed`, which is followed now.
+/// Leaves out players that repeat another one, unless `is_named`: the user has named them.
 std::optional<size_t> choose_player(const std::vector<PlayerView>& players,
                                     std::optional<size_t> followed, bool is_named);
 

@@ -18,16 +18,16 @@ class PositionFilter {
   static constexpr size_t kKept = 8;
   /// No player reported as late as this in our measurements: a larger difference is a jump.
   static constexpr int64_t kMaxLate_ns = 150'000'000;
-  /// So many positions in a row, each before the last, are no person's jumps: VLC reports 3/s.
+  /// This many positions in a row, each before the last, mean reverse playback: VLC reports 3/s.
   static constexpr int kBackward = 3;
 
-  /// Tells that the player plays at `rate` from this position on; earlier reports no longer count.
+  /// Begins at this position with `rate`, and discards earlier reports.
   void reset(int64_t now_ns, int64_t position_ns, double rate);
-  /// Tells that the player continues at another rate.
+  /// Continues from the present position at another rate.
   void change_rate(int64_t now_ns, double rate);
-  /// Takes a reported position. The same one again is ignored.
+  /// Adds a reported position. A repetition of the last one is ignored.
   void add(int64_t now_ns, int64_t position_ns);
-  /// Takes a reported jump to this position. VLC also reports jumps when there was none.
+  /// Adds a reported jump to this position. VLC also reports jumps when there was none.
   void add_jump(int64_t now_ns, int64_t position_ns);
 
   bool has_begun() const { return count_ > 0; }
@@ -35,7 +35,7 @@ class PositionFilter {
   bool runs_backwards() const { return backward_ >= kBackward; }
   /// When the player reported the newest position; 0 before the first one.
   int64_t newest_ns() const { return newest_ns_; }
-  /// The estimated position. Call reset() before.
+  /// Returns the estimated position. Call reset() first.
   int64_t position_at(int64_t now_ns) const;
 
  private:

@@ -11,7 +11,7 @@
 namespace spidar::screen {
 
 /// Reads a value of the desktop's portal as g_variant_get() does. The portal is another program, so
-/// the type of each value is checked: returns false, and reads nothing, if it is another one.
+/// this checks the type of the value: returns false, and reads nothing, if the type is wrong.
 template <typename... To>
 bool read_variant(GVariant* value, const char* format, To... to) {
   if (!value || !g_variant_check_format_string(value, format, FALSE)) return false;
@@ -19,7 +19,7 @@ bool read_variant(GVariant* value, const char* format, To... to) {
   return true;
 }
 
-/// The answer to a Request: its status and an "a{sv}" of results, or none in another form.
+/// The answer to a Request: its status and its results, an "a{sv}"; null if it has another form.
 struct PortalAnswer {
   static constexpr guint kAllowed = 0, kCancelled = 1;
 

@@ -30,7 +30,7 @@ constexpr const char* kRequest = "org.freedesktop.portal.Request";
 constexpr const char* kSession = "org.freedesktop.portal.Session";
 /// A value of the interface's `persist_mode`.
 constexpr guint kUntilRevoked = 2;
-/// Before the first answer, the bus starts the portal, which starts that of the desktop.
+/// The limit for the first answer: the bus starts the portal, which starts that of the desktop.
 constexpr int kStart_ms = 25'000;
 
 struct NotAllowed : std::runtime_error {
@@ -52,7 +52,7 @@ void take_answer(GDBusConnection*, const gchar*, const gchar*, const gchar*, con
   static_cast<std::optional<PortalAnswer>*>(answer)->emplace(parameters);
 }
 
-/// A portal that has ended answers no call.
+/// Ends the wait when the portal exits, because it then answers no call.
 void take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
                 GVariant* parameters, gpointer answer) {
   const gchar* owner = "";
@@ -68,7 +68,7 @@ void set_true(GDBusConnection*, const gchar*, const gchar*, const gchar*, const 
 
 namespace fs = std::filesystem;
 
-/// The last permission of the user, as the desktop names it.
+/// The file with the desktop's token for the last permission of the user.
 fs::path token_file() {
   return fs::path(g_get_user_state_dir()) / "gst-spidar" / "screen-token";
 }
@@ -126,7 +126,7 @@ class PortalView final : public View {
                     std::initializer_list<Option> options);
   Ref<GVariant> call(const char* method, GVariant* arguments,
                      GUnixFDList** descriptors = nullptr) const;
-  /// In that case pipewiresrc does not end by itself.
+  /// Whether PipeWire has closed the connection. pipewiresrc does not end by itself then.
   bool is_without_pipewire() const {
     pollfd remote{descriptor_, 0, 0};
     return poll(&remote, 1, 0) > 0;
@@ -219,7 +219,7 @@ Ref<GVariant> PortalView::call(const char* method, GVariant* arguments,
 
 Ref<GVariant> PortalView::ask(const char* method, std::vector<GVariant*> arguments,
                               std::initializer_list<Option> options) {
-  // The answer may come before the call returns, so this object waits for the expected path.
+  // The answer may come before the call returns, so subscribe to the expected path first.
   std::string sender = g_dbus_connection_get_unique_name(bus_.get()) + 1;
   std::replace(sender.begin(), sender.end(), '.', '_');
   const std::string handle = std::string("spidar_") + method;
@@ -275,7 +275,7 @@ void PortalView::open_remote() {
 }
 
 Ref<GstElement> PortalView::make_source() {
-  // Plain bytes: a source that also offers others gives them, too, when only these are accepted.
+  // Accept system memory only: a source that prefers other memory then offers it, too.
   const std::string line = "pipewiresrc do-timestamp=true fd=" + std::to_string(descriptor_) +
                            " path=" + std::to_string(shared_.node) +
                            " ! capsfilter caps=video/x-raw";

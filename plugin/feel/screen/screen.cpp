@@ -39,7 +39,7 @@ class FeltScreen {
   /// device, the debug window shows the force. Throws std::runtime_error, which says what is wrong.
   FeltScreen(View& view, const std::vector<std::string>& properties)
       : view_(view),
-        // The newest picture counts. Where spidarmotion accepts its format, nothing is converted.
+        // Keep only the newest picture. Nothing is converted if spidarmotion accepts its format.
         pipeline_(follow::parse_pipeline(
             "queue name=newest leaky=downstream max-size-buffers=1 max-size-bytes=0 "
             "max-size-time=0 "
@@ -58,7 +58,7 @@ class FeltScreen {
       throw std::runtime_error("the source has no video");
     }
     gst_element_set_state(pipeline_, GST_STATE_READY);
-    read_messages();  // reports which device that is
+    read_messages();  // sets is_simulated_
     if (is_simulated_ && !follow::wants_window(properties) && follow::has_display()) {
       g_object_set(felt_, "debug-window", TRUE, nullptr);
     }
@@ -111,7 +111,7 @@ class FeltScreen {
     if (std::exchange(told_, text) != text) follow::print_message(text);
   }
 
-  /// Returns an empty text while the film is unknown.
+  /// Returns an empty string while the film is unknown.
   std::string words_for_film(const GstStructure* stats) const {
     const Ref<GstPad> pad(gst_element_get_static_pad(felt_, "sink"));
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad.get()));

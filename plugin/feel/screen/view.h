@@ -21,7 +21,7 @@ class View {
   virtual Ref<GstElement> make_source() = 0;
   /// What has changed since the last call, a sentence; empty: nothing. Called a few times a second.
   virtual std::string change() = 0;
-  /// Whether its pictures come; until then they tell nothing about a film.
+  /// Whether pictures come; until then, nothing is known about a film.
   virtual bool is_shown() const { return true; }
   /// Whether no further picture comes.
   virtual bool has_ended() const = 0;
@@ -31,8 +31,8 @@ class View {
 /// for the whole screen. Waits for that click. Throws std::runtime_error with advice.
 std::unique_ptr<View> view_of_x11(const std::string& what);
 
-/// A program of X11 or Wayland that the user chooses in a dialog of the desktop: again if
-/// `is_asked`, otherwise as last time. Throws like view_of_x11().
+/// A screen or window that the user chooses in a dialog of the desktop (X11 or Wayland): a new
+/// choice if `is_asked`, otherwise the last one. Throws like view_of_x11().
 std::unique_ptr<View> view_of_portal(bool is_asked);
 
 }  // namespace spidar::screen

@@ -16,8 +16,8 @@ struct Property {
   const unsigned char* data = nullptr;
 };
 
-/// The items, if they have this type and this size: 8 bits are a char, 32 are a long, however long
-/// that is. Otherwise none.
+/// The items, if they have this type and size: Xlib stores 8-bit items as char, and 32-bit items as
+/// long, whatever its size. Otherwise none.
 template <typename Items>
 Items items_of(const Property& property, unsigned long type) {
   using Item = typename Items::value_type;
@@ -28,7 +28,7 @@ Items items_of(const Property& property, unsigned long type) {
   return {items, items + property.count};
 }
 
-/// Returns UTF-8, up to a zero. Other text is read as Latin-1, in which every byte is a letter.
+/// Returns the text up to a zero as UTF-8. Other text is read as Latin-1, which accepts any byte.
 inline std::string text_of(const std::string& bytes) {
   const std::string text = bytes.c_str();
   if (g_utf8_validate(text.c_str(), -1, nullptr)) return text;

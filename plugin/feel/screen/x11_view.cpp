@@ -23,7 +23,7 @@
 namespace spidar::screen {
 namespace {
 
-/// The class of this project's windows, which nobody wants to feel.
+/// The class of this project's own windows, which are not felt.
 constexpr const char* kOwnClass = "spidar-window";
 
 template <typename Data>
@@ -60,9 +60,9 @@ bool is_of_program(Display* display, Window window) {
 
 thread_local bool call_has_failed = false;
 
-/// From now on, a call that fails because a window is gone has no consequence; otherwise Xlib ends
-/// the process, as it still does when the server ends, and the guardian sets the motors to zero.
-/// For all connections of the process.
+/// Sets the error handlers of all connections of the process. A call that fails because a window is
+/// gone has no consequence; by default, Xlib would exit. When the server ends, the process exits,
+/// and the guardian sets the motors to zero.
 void handle_x11_errors() {
   XSetErrorHandler([](Display*, XErrorEvent*) {
     call_has_failed = true;
@@ -139,7 +139,7 @@ Window clicked_window(Display* display) {
 /// picture is copied.
 constexpr int kPictures_Hz = 60;
 
-/// The debug window opens in one of so many parts of the screen's width and height.
+/// The debug window gets this fraction, 1 / kOwnParts, of the screen's width and height.
 constexpr int kOwnParts = 3;
 
 /// Which part of a window is visible.
@@ -177,7 +177,7 @@ void paint_black(GstVideoFrame& frame, const XWindowAttributes& part) {
   }
 }
 
-/// Uses another connection than the source.
+/// Uses its own connection, not that of the source.
 class X11View : public View {
  public:
   using Connection = std::unique_ptr<Display, int (*)(Display*)>;
@@ -273,7 +273,6 @@ class X11View : public View {
                       side(width), side(height));
   }
 
-  /// Finds this project's windows on the screen.
   void find_own() {
     std::vector<XWindowAttributes> found;
     for (const Window window : program_windows(display_)) {

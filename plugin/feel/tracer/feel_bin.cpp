@@ -184,7 +184,7 @@ static GstElement* front(GstSpidarFeelBin* self) {
   return self->flip ? self->flip : self->before;
 }
 
-/// Replaces the element in place by `in` while no data flow between `before` and `after`.
+/// Replaces the element between `before` and `after` by `in`. No data may flow there meanwhile.
 static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
   GstElement* const out = self->in_place;
   gst_element_unlink_many(front(self), out, self->after, nullptr);
@@ -208,7 +208,7 @@ static void stop_measuring(GstSpidarFeelBin* self) {
   gst_element_set_state(before.get(), GST_STATE_NULL);
 }
 
-/// Gives frames of `caps` to spidarmotion.
+/// Makes spidarmotion measure frames of `caps`.
 static void measure(GstSpidarFeelBin* self, const GstCaps* caps) {
   const bool in_gpu = spidar::is_in_gpu(caps);
   if (self->in_place == self->motion && !in_gpu) return;
@@ -232,7 +232,7 @@ static bool follows_tag(GstElement* element) {
   return false;
 }
 
-/// WebKit turns pictures where it draws them.
+/// Whether pictures are turned behind this bin: by an element, or by WebKit, when it draws them.
 static bool is_turned_behind(GstSpidarFeelBin* self) {
   return g_strcmp0(g_get_prgname(), "WebKitWebProcess") == 0 ||
          !spidar::find_path_downstream(GST_ELEMENT(self), follows_tag).empty();
@@ -266,7 +266,7 @@ static void add_flip(GstSpidarFeelBin* self) {
   spidar::follow_state(GST_ELEMENT(self), flip);
 }
 
-/// With video-direction=auto, the videoflip of GStreamer 1.22 would turn the next film, too.
+/// Sets a direction: with auto, the videoflip of GStreamer 1.22 would turn the next film, too.
 static void turn_pictures(GstSpidarFeelBin* self) {
   const GstVideoOrientationMethod method = self->orientation.method();
   self->lies = method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
@@ -320,9 +320,9 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
   return GST_PAD_PROBE_OK;
 }
 
-/// After the middle was replaced, `before` negotiates and sends caps and segment again. When a seek
-/// flushes the bin meanwhile, that fails, and the player would stop with an error. The seek drops
-/// this frame anyway. The flush has marked the pad of the bin before it reaches the elements in it.
+/// Replaces an error during a flush by GST_FLOW_FLUSHING. After the middle was replaced, `before`
+/// sends caps and segment again, which fails when a seek flushes the bin and would stop the player.
+/// The seek drops this frame anyway, and marks the pad of the bin before the elements in it.
 static GstFlowReturn failed_or_flushed(GstPad* pad, GstFlowReturn result) {
   if (result != GST_FLOW_NOT_NEGOTIATED && result != GST_FLOW_ERROR) return result;
   GST_OBJECT_LOCK(pad);
@@ -368,7 +368,7 @@ static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element
   return result;
 }
 
-/// Players hide information such as which track is felt, so spidarmotion's is passed on.
+/// Passes on information from spidarmotion, such as which track is felt, because players hide it.
 static void gst_spidar_feel_bin_handle_message(GstBin* bin, GstMessage* message) {
   GstSpidarFeelBin* self = GST_SPIDAR_FEEL_BIN(bin);
   const gpointer motion = g_atomic_pointer_get(&self->motion);

@@ -5,9 +5,9 @@
  * @title: spidarfeel
  * @short_description: lets the videos of any player be felt
  *
- * Gives every playbin and playbin3 that shows video and has no video-filter one with #spidarmotion.
- * The program spidar-feel runs a player with it. `SPIDAR_FEEL` in the environment has properties of
- * #spidarmotion, a line NAME=VALUE each.
+ * Adds a video-filter with #spidarmotion to every playbin and playbin3 that shows video and has no
+ * video-filter. The program spidar-feel runs a player with this tracer. The environment variable
+ * `SPIDAR_FEEL` has properties of #spidarmotion, one NAME=VALUE per line.
  *
  * The device is opened when a video begins to play, not before, and closed when it is stopped.
  *
@@ -59,8 +59,8 @@ static void set_filter(GstElement* element) {
   if (filter) g_object_set(element, "video-filter", filter, nullptr);
 }
 
-/// When it begins to play, a playbin with video has taken the filter. Prints this once, and not
-/// again after each pause.
+/// Prints, once, that there is no video: when a playbin begins to play and its filter is still
+/// without a parent.
 static void tell_without_video(GstElement* element) {
   static std::atomic<bool> has_told{false};
   GstElement* filter = nullptr;
@@ -85,14 +85,14 @@ static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
 
 static std::atomic<bool> has_failed{false};
 
-/// gst-play-1.0 reports a film that it cannot play, and ends with status 0.
+/// Replaces the status of gst-play-1.0, which is 0 even if it cannot play the film.
 static void end_with_status() {
   if (!has_failed) return;
   std::fflush(nullptr);
   _exit(1);
 }
 
-/// The report of an element in a player is no error of the film before the player reports it.
+/// An error of an element in a player counts only when the playbin itself reports it.
 static void before_message(GstTracer*, GstClockTime, GstElement* element, GstMessage* message) {
   if (GST_MESSAGE_TYPE(message) != GST_MESSAGE_ERROR || !is_playbin(element)) return;
   has_failed = has_failed || is_own_player();

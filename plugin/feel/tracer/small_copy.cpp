@@ -26,7 +26,7 @@ struct Copier {
 constexpr Copier kCopiers[] = {
     {"memory:GLMemory", "glcolorscale", "glcolorconvert ! glcolorscale",
      "video/x-raw(memory:GLMemory),format=RGBA", "gldownload"},
-    // This element downloads by itself.
+    // vapostproc downloads by itself.
     {"memory:VAMemory", "vapostproc", "vapostproc", "video/x-raw", "identity"},
 };
 
@@ -67,8 +67,8 @@ GstElement* small_copy_bin_new(const GstCaps* caps, GstElement* motion) {
   if (!copier || !gst_video_info_from_caps(&info, caps)) return nullptr;
   const int height = std::min(info.height, kCopyHeight_px);
   const auto width = static_cast<int>(gst_util_uint64_scale_round(info.width, height, info.height));
-  // The copy goes first: the frame itself may wait for its time in elements behind. The end of the
-  // branch takes no part in preroll.
+  // The copy is pushed first, because the frame may wait for its time downstream. The fakesink
+  // takes no part in preroll.
   std::ostringstream elements;
   elements << "tee name=frames frames. ! queue max-size-buffers=2 max-size-bytes=0 max-size-time=0 "
            << "! " << copier->reduce << " ! " << copier->memory << ",width=" << std::max(width, 1)
@@ -76,7 +76,7 @@ GstElement* small_copy_bin_new(const GstCaps* caps, GstElement* motion) {
            << " name=small  fakesink name=end sync=false async=false";
   GstElement* const bin = gst_parse_bin_from_description(elements.str().c_str(), FALSE, nullptr);
   if (!bin) return nullptr;
-  // To the player this must be no sink, which it would seek, too.
+  // Otherwise the player would take the bin for a sink, and send seeks to it.
   gst_bin_set_suppressed_flags(GST_BIN(bin), GST_ELEMENT_FLAG_SINK);
   const auto part = [bin](const char* name) {
     return Ref<GstElement>(gst_bin_get_by_name(GST_BIN(bin), name));

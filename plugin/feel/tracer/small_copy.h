@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Frames in GPU memory: the shown frames stay there, and a small copy of each is felt.
+/// Frames in GPU memory: the shown frames stay there, and a small copy of each is analysed.
 #pragma once
 
 #include <gst/gst.h>
 
 namespace spidar {
 
-/// The GPU memory from which the installed elements make small copies: of GL, and of VA-API.
-/// Floating caps with any size and format, which the caller owns; empty without such elements.
+/// Returns caps, owned by the caller, with the GPU memory (GL, VA-API) of which installed elements
+/// make small copies, and any size and format; empty without such elements.
 GstCaps* gpu_caps();
 
 /// Whether frames of these caps are outside of the processor's memory.

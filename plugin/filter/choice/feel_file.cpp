@@ -42,7 +42,7 @@ std::vector<FeelRule> rules_in(const std::string& text) {
   }
 }
 
-/// Returns the name of the copy, which was free.
+/// Copies the file to the first free name of `path`~, `path`~~, …, and returns that name.
 std::string keep_copy(const std::string& path) {
   std::string copy = path + "~";
   std::error_code failed;
@@ -87,7 +87,7 @@ std::string save_feel(const std::string& feel, const std::string& film,
   if (path.empty()) path = film + kFeelEnd;
   std::error_code ignored;
   const bool is_there = fs::exists(path, ignored);
-  if (is_there) path = fs::canonical(path, ignored).string();  // a link stays a link
+  if (is_there) path = fs::canonical(path, ignored).string();  // do not replace a symbolic link
   if (is_there && access(path.c_str(), W_OK) != 0) {
     throw std::runtime_error(path + ": is protected against writing");
   }

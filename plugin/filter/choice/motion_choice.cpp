@@ -15,7 +15,7 @@
 namespace spidar::filter {
 namespace {
 
-/// Nobody minds a last rule that is a little longer than the film.
+/// A rule that exceeds the film by less than this is not reported.
 constexpr gint64 kTolerance_ns = 1'000'000'000;
 
 std::string until(const FeelRule& rule) {
@@ -82,7 +82,7 @@ void MotionChoice::complete(const GstVideoFrame& frame, const Orientation& turn,
                             FrameSettings& settings) {
   AnalyzerSettings& analyzer = settings.analyzer;
   analyzer.pointer = turn.stored_position(analyzer.pointer);
-  // A position of the sink's mouse already refers to the frame before its turn.
+  // The position of the sink's mouse is already a position in the stored frame.
   if (settings.pointer == Pointer::Kind::kMouse) {
     analyzer.pointer = mouse_.position().value_or(analyzer.pointer);
   }

@@ -19,36 +19,36 @@
 
 namespace spidar::filter {
 
-/// What a person chose to feel, by the rules of `feel` and by the mouse, and the reports when that
-/// cannot be felt. Streaming thread, unless stated otherwise.
+/// Combines what the rules of `feel` and the mouse choose to be felt, and posts a message when the
+/// choice cannot be felt. Use it in the streaming thread, unless stated otherwise.
 class MotionChoice {
  public:
   explicit MotionChoice(GstElement* element) : element_(element) {}
 
   MousePointer& mouse() { return mouse_; }
-  /// Null when there are none. Any thread.
+  /// Returns the current rules; null if there are none. Any thread.
   std::shared_ptr<const FeelRules> rules() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return named_.rules;
   }
 
-  /// Begins another stream, from the file `film` or, when that is empty, from elsewhere.
+  /// Begins another stream, which comes from the file `film`, or from no file if `film` is empty.
   void begin_stream(const std::string& film);
 
-  /// Tells that the property `feel` was set. Any thread.
+  /// Call this when the property `feel` was set. Any thread.
   void rules_changed() { is_read_ = false; }
-  /// Whether read() must be called before the next frame. True once after each change.
+  /// Returns true once after each change: call read() before the next frame.
   bool is_to_read() { return !is_read_.exchange(true); }
-  /// Reads the rules that `feel` means, and reports on the bus what is wrong with them. The
-  /// duration of the film is queried from the peer of `sink`.
+  /// Reads the rules that `feel` selects, and posts warnings about mistakes in them. Queries the
+  /// duration of the film from the peer of `sink`.
   void read(const std::string& feel, GstPad* sink);
 
-  /// Completes the settings of `frame` by what rules, mouse and boxes choose. `turn` turns the
-  /// frame before it is shown. The pointer of `settings` is a position in the shown frame, and
-  /// becomes one in the stored frame.
+  /// Adds to the settings of `frame` what rules, mouse and boxes choose. `turn` is the orientation
+  /// in which the frame is shown. Converts the pointer of `settings` from a position in the shown
+  /// frame to one in the stored frame.
   void complete(const GstVideoFrame& frame, const Orientation& turn, FrameSettings& settings);
 
-  /// Posts once what became of each rule and click.
+  /// Posts a message, once for each rule or click, when its object cannot be felt.
   void check(const Chosen& choice, const KeptObject& kept, GstClockTime stream_time);
 
  private:
@@ -65,7 +65,7 @@ class MotionChoice {
   mutable std::mutex mutex_;  ///< guards changes of `named_`, and its use in other threads
   NamedRules named_;
   bool warned_of_mean_ = false;
-  std::set<std::pair<int, Chosen::State>> told_;  ///< line and state
+  std::set<std::pair<int, Chosen::State>> told_;  ///< line of the rule, posted state
   GstClockTime seen_ = 0;                         ///< stream time of the previous frame
 };
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr gint kLeftButton = 1, kWheelUp = 4, kWheelDown = 5;  // X sinks send the wheel as buttons
 
-/// The mouse may be beside the picture, in the black bars of a window.
+/// Clamps to 0 … 1, because the mouse may be beside the picture, in the black bars of a window.
 double fraction(double at_px, int size_px) {
   if (!std::isfinite(at_px) || size_px <= 0) return 0.5;
   return std::min(std::max(at_px / size_px, 0.0), 1.0);
@@ -28,7 +28,7 @@ std::optional<GstVideoInfo> info_of(GstPad* pad) {
   return known ? std::optional<GstVideoInfo>(info) : std::nullopt;
 }
 
-/// Returns the position in pixels.
+/// Parses a mouse event; the position in the result is in pixels.
 std::optional<SinkMouse> parse(GstEvent* event) {
   SinkMouse mouse;
   gdouble &x = mouse.position.x(), &y = mouse.position.y(), sideways = 0;

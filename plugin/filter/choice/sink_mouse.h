@@ -14,7 +14,7 @@ namespace spidar::filter {
 
 /// One action of the mouse in the window of a video sink.
 struct SinkMouse {
-  enum class Act { kMove, kPress, kRelease, kWheel };  ///< of the left button
+  enum class Act { kMove, kPress, kRelease, kWheel };  ///< press and release: left button
   Act act = Act::kMove;
   /// In the frame before it is turned: (0, 0) is the top left corner, (1, 1) the bottom right one.
   Eigen::Vector2d position{0.5, 0.5};
@@ -22,13 +22,13 @@ struct SinkMouse {
   double wheel = 0;    ///< notches, positive away from the user
 };
 
-/// Parses an event from downstream: elements that scale, crop or turn the picture have converted it
-/// to pixels of the frame. `source` is the pad that the event comes to, whose caps are those of the
-/// frames. Returns nothing for other events and buttons.
+/// Parses a mouse event from downstream. Elements that scale, crop or turn the picture have already
+/// converted its position to pixels of the frame. `source` is the pad that receives the event; its
+/// caps are those of the frames. Returns nothing for other events and buttons.
 std::optional<SinkMouse> read_mouse(GstEvent* event, GstPad* source);
 
-/// Moving the mouse points at an object. A click of the left button keeps the object there, or
-/// releases the one that is kept. Thread-safe.
+/// Follows the mouse: a move points at an object; a click of the left button keeps the object
+/// there, or releases the kept one. Thread-safe.
 class MousePointer {
  public:
   void update(const SinkMouse& mouse);
@@ -39,7 +39,7 @@ class MousePointer {
   /// The click whose object is kept, with its position in the frame before it is turned.
   KeptObject kept() const;
 
-  /// Keeps the object at this position, or none, without a mouse in the window of a sink.
+  /// Keeps the object at `position`, or none if empty, for clicks outside the window of a sink.
   void keep(const std::optional<Eigen::Vector2d>& position);
 
   /// Stops keeping the object of this click.

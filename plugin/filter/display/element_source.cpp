@@ -18,7 +18,7 @@
 namespace spidar::filter {
 namespace {
 
-/// Holds the element only while it is read, because drawing takes long; null when it is gone.
+/// Returns a strong reference, null if the element is gone. Do not keep it while drawing.
 Ref<GstElement> hold(GWeakRef& weak) {
   return Ref<GstElement>(static_cast<GstElement*>(g_weak_ref_get(&weak)));
 }
@@ -69,7 +69,7 @@ bool describe(GstElement* element, const GParamSpec* spec, window::Setting& sett
   return true;
 }
 
-/// Leaves out properties for output of programs, and the switch that would close the window.
+/// Returns false for properties that serve programs, and for the one that closes the window.
 bool is_offered(const std::string& setting) {
   constexpr std::array<const char*, 4> kOfPrograms{"debug-window", "post-messages", "attach-meta",
                                                    "on-device-error"};
@@ -164,7 +164,7 @@ class ElementSource final : public window::Source {
     try {
       std::string done = save_feel(feel, film, edits);
       if (!feel.empty() && feel != "auto" && !is_feel_file(feel)) done += " feel=auto reads it.";
-      // Setting the property reads the file anew.
+      // Setting the property makes the element read the file again.
       g_object_set(held.get(), "feel", feel.empty() ? "auto" : feel.c_str(), nullptr);
       return {true, done};
     } catch (const std::runtime_error& error) {
@@ -186,9 +186,9 @@ class ElementSource final : public window::Source {
     });
   }
 
-  /// Seeks from the element upstream, as a sink would: the demuxer seeks for all streams. A thread
-  /// of GStreamer's does this, because a seek may take long and waits for a change of the state,
-  /// which in turn waits for the thread of the window. The last of several waiting seeks counts.
+  /// Sends a seek upstream, as a sink does, so that the demuxer seeks in all streams. The seek runs
+  /// in a thread of GStreamer, because it may take long and waits for a state change, which in turn
+  /// may wait for the thread of the window. Of several pending seeks, only the last is executed.
   void seek(int64_t to_ns) override {
     const Ref<GstElement> held = hold(element_);
     if (!held || sought_ns_->exchange(to_ns) != kNone_ns) return;

@@ -15,8 +15,8 @@
 
 namespace spidar::filter {
 
-/// Returns why nothing is felt, for a window, which knows whether the film is paused: in a pause,
-/// no frame came in the last second, whatever is in the film.
+/// Returns why nothing is felt, for display in a window. In a pause, `reason` only says that no
+/// frame came in the last second, so the sentence names the pause instead.
 inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
   if (!is_playing && reason != NoForceReason::kEnded) return "The video is paused.";
   if (reason == NoForceReason::kNotPlaying) {
@@ -25,8 +25,8 @@ inline std::string sentence_in_window(NoForceReason reason, bool is_playing) {
   return sentence(reason);
 }
 
-/// Returns an element as a window sees it, without a reference: the element may be destroyed while
-/// the window is open. The other arguments belong to `element` and live as long.
+/// Returns `element` as a source of the debug window. The source holds only a weak reference: the
+/// element may be destroyed first. The other arguments belong to `element` and live as long.
 std::shared_ptr<window::Source> make_element_source(GstElement* element, HapticOutput& output,
                                                     const NoForceWatch& no_force,
                                                     MotionChoice& choice, UnreadMessages& unread);

@@ -118,7 +118,7 @@ std::shared_ptr<window::Source> MotionDisplay::source() const {
 void MotionDisplay::open_window() {
   if (window()) return;
   auto new_window = std::make_shared<window::Window>(source());
-  // If another thread has opened a window meanwhile, this one closes at the end.
+  // If another thread has opened a window meanwhile, `new_window` closes on return.
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!window_) window_.swap(new_window);
 }
@@ -129,7 +129,7 @@ void MotionDisplay::close_window() {
     const std::lock_guard<std::mutex> lock(mutex_);
     closing.swap(window_);
   }
-  // The last reference may end in the streaming thread, which must not wait for the window.
+  // Close now: the last reference may be released in the streaming thread, which must not wait.
   if (closing) closing->close();
 }
 

@@ -36,16 +36,16 @@ class MotionDisplay {
 
   // --- streaming thread
 
-  /// Shows `report`, which was just made of `frame`. The frame is mapped for writing when the
-  /// overlay is on, and its buffer is writable when metas are attached.
+  /// Shows `report`, the result for `frame`. The overlay needs a frame that is mapped for writing,
+  /// the metas need a writable buffer; without these, they are left out.
   void show(const FrameReport& report, const FrameSettings& settings, GstVideoFrame& frame);
 
   /// Call this instead of show() for a frame that was not processed.
   void reset() { owners_.reset(); }
 
-  /// Begins another stream, from the file `film` or, when that is empty, from elsewhere.
+  /// Begins another stream, which comes from the file `film`, or from no file if `film` is empty.
   void begin_stream(const std::string& film);
-  /// Tells that other elements may be linked now.
+  /// Call this at the start of each segment: other elements may be linked by then.
   void begin_segment();
 
   // --- any thread
@@ -54,7 +54,7 @@ class MotionDisplay {
   SinkHand& hand() { return hand_; }
   std::shared_ptr<window::Source> source() const;
   void open_window();
-  /// Returns when the window is closed, or after Window::kPatience.
+  /// Closes the window, and waits for that for Window::kPatience at most.
   void close_window();
   /// For tests and save_window(); null while there is no window.
   std::shared_ptr<window::Window> window() const;

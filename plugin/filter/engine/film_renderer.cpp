@@ -56,7 +56,7 @@ void FilmRenderer::run_out(GstClockTime running_time) {
 void FilmRenderer::begin_gap(GstClockTime running_time) {
   if (!is_time(running_time) || !pacer_.has_frame()) {
     run_out(running_time);
-  } else if (!gap_ns_) {  // without frames, the force ends by itself
+  } else if (!gap_ns_) {  // without frames, the force expires
     gap_ns_ = static_cast<int64_t>(running_time);
   }
 }
@@ -75,7 +75,7 @@ void FilmRenderer::end_of_stream() {
   feed_.reliefs.end(feed_.schedule.at_sink_ns(pacer_.next_ns()));
 }
 
-/// A frame of another run does not follow the one before.
+/// Begins a new run if the frame belongs to another epoch.
 void FilmRenderer::follow(const FrameStamp& stamp) {
   if (std::exchange(epoch_, stamp.epoch) != stamp.epoch) begin_run();
 }
@@ -86,8 +86,8 @@ Wrench FilmRenderer::shown_wrench(const Frame& frame, const Orientation& turn) c
   return {motion_fraction_ * shown.force_N, motion_fraction_ * shown.torque_Nm};
 }
 
-/// Schedules `shown` instead of the frame's own wrench. A motion between two pictures is that of
-/// the moment halfway between them; during a repeated picture, the next one is not there yet.
+/// Schedules `shown` instead of the frame's own wrench. A motion belongs to the moment halfway
+/// between its two pictures; while a picture repeats, halfway between its first frame and this one.
 void FilmRenderer::schedule(const Frame& frame, const PacedTime& time, bool moved,
                             const Wrench& shown) {
   if (!frame.is_continuation()) picture_ns_ = time.running_ns;
@@ -103,7 +103,7 @@ void FilmRenderer::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   follow(stamp);
   const int64_t running_ns = stamp.running_ns;
   const PacedTime time = pacer_.at(running_ns, feed_.schedule.rate_multiplier());
-  // videorate makes such a gap of a frame that is shown again.
+  // videorate marks a repeated frame as such a gap.
   const Frame* const frame = time.since_ns > 0 ? analyzer_.repeat(time.paced_ns) : nullptr;
   const Wrench wrench = frame ? shown_wrench(*frame, turn) : Wrench();
   if (frame) {
@@ -115,7 +115,7 @@ void FilmRenderer::pass_gap(const FrameStamp& stamp, const Orientation& turn) {
   pacer_.advance(time);
 }
 
-/// Whether a frame follows the one before in time; if not, fills in why it cannot be analysed.
+/// Returns false if the frame comes too soon after the previous one. Fills in timestamp faults.
 bool FilmRenderer::follows(const PassingFrame& frame, FrameReport& report) {
   follow(report.stamp);
   end_gap(report.stamp.running_ns);
@@ -168,7 +168,7 @@ bool FilmRenderer::analyze(const PassingFrame& frame, const ImageView& luma, int
   report.frame.wrench = shown_wrench(report.frame, report.turn);
   report.no_force = reason_in_frame(report.frame, frame.settings.analyzer.motion);
   to_stored_pixels(report.frame, picture.width);
-  // The picture is the left or the upper half.
+  // In a packed frame, the picture is the left or the upper half.
   report.visible.width = picture.width;
   report.visible.height = picture.height;
   report.took_ns = monotonic_now_ns() - begin_ns;

@@ -17,7 +17,7 @@
 
 namespace spidar::filter {
 
-/// Where the grip points in the shown picture; nothing while no device runs.
+/// Returns the position in the shown picture at which the grip points; nothing if no device runs.
 std::optional<Eigen::Vector2d> grip_position(const HapticOutput& output);
 
 /// A frame that passes the element.
@@ -37,17 +37,17 @@ class FilmRenderer {
 
   /// Begins a run: the next frame is not compared with the previous one.
   void begin_run() { analyzer_.reset(); }
-  /// Schedules the force while the frame is shown. Fills in the report, except for the times of its
-  /// frame, or why the frame cannot be analysed.
+  /// Analyses the frame and schedules its force for the time at which it is shown. Fills in the
+  /// report, apart from the times of the frame, or the fault that prevents the analysis.
   void process(const PassingFrame& frame, FrameReport& report);
-  /// Call this instead of process() for a frame without a picture, which `turn` turns for display.
+  /// Call this instead of process() for a gap buffer. `turn` is the orientation for display.
   void pass_gap(const FrameStamp& stamp, const Orientation& turn);
 
   void begin_segment() { pacer_.begin_segment(); }
-  /// Tells that running time begins anew.
+  /// Call this when running time restarts.
   void reset();
-  /// Tells that there are no frames from this running time on, except for those in the decoder: the
-  /// gap event of a demuxer overtakes them, and may begin too early.
+  /// Handles a gap event: there are no frames from `running_time` on. Frames that are still in the
+  /// decoder may follow, because the demuxer's event overtakes them and may begin too early.
   void begin_gap(GstClockTime running_time);
   void end_of_stream();
 
@@ -68,7 +68,7 @@ class FilmRenderer {
   FramePacer pacer_;
   uint32_t epoch_ = 0;
   int64_t picture_ns_ = 0;         ///< when the picture of the newest frame was first shown
-  std::optional<int64_t> gap_ns_;  ///< where a gap begins, unless a frame comes there
+  std::optional<int64_t> gap_ns_;  ///< start of an announced gap, until a frame comes
   double motion_fraction_ = 1;     ///< for the newest frame's wrench
 };
 

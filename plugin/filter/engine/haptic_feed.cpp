@@ -57,8 +57,8 @@ void HapticFeed::skip(GstClockTime duration) {
 }
 
 void HapticFeed::change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream) {
-  // Drops all samples of a track; the next frame adds them again at the new rate. This comes first,
-  // because samples that the schedule forwards later must stay.
+  // Drop all samples of a track; the next frame adds them again at the new rate. Do this first:
+  // samples that are added after the rate of the schedule has changed must stay.
   track_samples.clear();
   schedule.change_rate(multiplier, running_time, upstream);
 }

@@ -15,28 +15,27 @@
 
 namespace spidar::filter {
 
-/// The way of an element's wrenches, samples and reliefs to the hand: a device with its queues. The
-/// parts can be used in any thread, and so can the functions that concern several of them, except
-/// for open() and close().
+/// The path of an element's wrenches, samples and reliefs to the hand: a device and its queues. All
+/// members can be used in any thread, except for open() and close().
 struct HapticFeed {
   explicit HapticFeed(GstElement* element);
 
   /// Opens the device, in a state change. Returns an empty string, or why the haptic trace cannot
-  /// be written: the device works without. Throws ProfileError, DeviceError, std::runtime_error.
+  /// be written, which does not stop the device. Throws ProfileError, DeviceError, runtime_error.
   std::string open(const MotionProperties& properties);
-  /// Ramps the motors to zero and closes the device. State changes.
+  /// Ramps the motors to zero and closes the device, in a state change.
   void close();
 
-  /// Ramps the force to zero at once. It stays there until frames come after set_muted(false).
+  /// Starts the ramp of the force to zero, or lets the force return with the frames that follow.
   void set_muted(bool muted);
   /// Discards all scheduled wrenches at once, and the touched surface.
   void clear();
-  /// Tells that the sink shows frames `multiplier` times as fast from now on, see
+  /// Call this when the sink begins to show frames `multiplier` times as fast, see
   /// InstantRate::change().
   void change_rate(double multiplier, GstClockTime running_time, GstClockTime upstream);
-  /// Tells that the sink has stepped over `duration` and shows later frames that much earlier.
+  /// Call this when the sink has skipped `duration` and so shows later frames that much earlier.
   void skip(GstClockTime duration);
-  /// Tells that running time begins anew.
+  /// Call this when running time restarts.
   void reset();
 
   // The queues must outlive the output's thread, which forwards their entries.

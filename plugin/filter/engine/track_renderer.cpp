@@ -31,12 +31,12 @@ TrackBlock cut(TrackBlock block, int64_t time_ns) {
   return block;
 }
 
-/// The earliest shown moment of a frame, in the film.
+/// The stream time at which a frame is first shown: in reverse playback, its end.
 int64_t first_ns(const FrameStamp& frame) {
   return frame.stream_ns + (frame.rate < 0 ? frame.length_ns : 0);
 }
 
-/// Returns the block with running times.
+/// Converts a block from stream time to running time.
 TrackBlock timed(const TrackBlock& block, const FrameStamp& frame) {
   TrackBlock shown = block;
   const auto running_at = [&frame](int64_t stream_ns) {
@@ -73,7 +73,7 @@ void TrackReplay::jump(int64_t time_ns) {
   late_ = false;
 }
 
-/// Returns false when there is no other block now.
+/// Appends the next block to the window. Returns false if there is none, or not yet.
 bool TrackReplay::append() {
   const auto now = std::chrono::steady_clock::now();
   TrackBlock block;
@@ -152,7 +152,7 @@ void TrackReplay::play(const FrameStamp& frame,
   const int64_t until_ns = expected_ns_ + margin_ns;
   if (backwards) {
     cover(until_ns, at_ns, true);
-    // The missing blocks of the end come first.
+    // Blocks are given from the end, so give none while those at the end are missing.
     const bool is_whole = end_ns_ >= std::min(at_ns, given_ns_);
     for (auto block = window_.rbegin();
          is_whole && block != window_.rend() && end_of(*block) > until_ns; ++block) {

@@ -21,7 +21,7 @@
 
 namespace spidar::filter {
 
-/// Gives the due blocks of a haptic track, which replaces the analysis, with their running times.
+/// Supplies the due blocks of a haptic track, which replaces the analysis, in running time.
 class TrackReplay {
  public:
   /// The samples of a frame continue for this long after its end, because the next one may be late.
@@ -33,9 +33,9 @@ class TrackReplay {
   void set_track(std::shared_ptr<ReadAhead> track);
   bool has_track() const { return track_ != nullptr; }
 
-  /// Gives the samples that are rendered while the frame is shown and were not given before, at the
-  /// running time of the sink. In another epoch, at another rate and after a gap, begins with the
-  /// block of the frame.
+  /// Passes to `give`, in running time of the sink, the samples for the time in which the frame is
+  /// shown that were not given before. In another epoch, at another rate and after a gap, starts
+  /// with the block of the frame.
   void play(const FrameStamp& frame, const std::function<void(const TrackBlock&)>& give);
 
   /// The largest wrench of the track while the frame of the last play() is shown; zero if none.
@@ -54,7 +54,7 @@ class TrackReplay {
   std::deque<TrackBlock> window_;
   int64_t begin_ns_ = 0, end_ns_ = 0;
   bool continues_ = true;  ///< the next block of track_ follows the window
-  bool late_ = false;      ///< no more frames wait until a block has come
+  bool late_ = false;      ///< a block was late: do not wait again until one arrives
   std::optional<uint32_t> epoch_;
   double rate_ = 1;
   int64_t expected_ns_ = 0;  ///< stream time of the next frame
@@ -66,15 +66,15 @@ class TrackRenderer {
   /// `feed` must outlive this object.
   TrackRenderer(GstElement* element, HapticFeed& feed) : feed_(feed), felt_(element) {}
 
-  /// Begins another film with this property `track`. Frames are analysed until use_loaded() finds
-  /// its track. The given samples of the previous film are still rendered: its frames are on their
-  /// way to the screen.
+  /// Begins another film; `track` is the value of the property. Frames are analysed until
+  /// use_loaded() finds the track. Samples already given for the previous film are still rendered,
+  /// because its frames are still on their way to the screen.
   void begin_stream(const std::string& track, const std::string& film);
-  /// Call this for each frame, of `frame_ns`, before has_track(). For `has_rules` see FeltTrack.
+  /// Call this for each frame, which lasts `frame_ns`, before has_track(). `has_rules`: FeltTrack.
   void use_loaded(int64_t frame_ns, bool has_rules);
   /// Whether a track replaces the analysis of frames.
   bool has_track() const { return replay_.has_track(); }
-  /// The file of the track; empty: there is none. Any thread.
+  /// Returns the file of the track; empty if there is none. Any thread.
   std::string path() const;
   uint64_t frames() const { return frames_; }
 

@@ -12,7 +12,7 @@
 namespace spidar::filter {
 namespace {
 
-// The beginning of the files of every version.
+// Every trace, of any version, begins with one of these.
 constexpr const char* kFirstColumn = "running_time_ns,";
 constexpr const char* kFirstKey = "{\"running_time_ns\":";
 

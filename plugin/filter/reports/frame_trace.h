@@ -11,14 +11,14 @@
 
 namespace spidar::filter {
 
-/// One JSON object and a line end, with `background` and `objects`. Keys carry their units;
-/// positions are pixels from the centre of the frame, x right, y down. Numbers have as few digits
-/// as can be read back exactly. A number that is not finite becomes null.
+/// Returns the report as one line of JSON with `background` and `objects`. Keys end in their units;
+/// positions are in pixels from the centre of the frame, x right, y down. Numbers have the fewest
+/// digits from which they can be read back exactly. A number that is not finite becomes null.
 std::string json_line(const FrameReport& report);
 
 /// A file with one line for each frame. If its name ends in .csv, the file is CSV with a header
 /// line; if the name ends in .jsonl, each line is json_line(), with objects and background. Numbers
-/// ignore the locale and have the digits that reading them back needs.
+/// do not depend on the locale and have enough digits to be read back exactly.
 class FrameTrace {
  public:
   /// Returns an empty string, or the reason why the file cannot be written.

@@ -47,14 +47,14 @@ struct SerialisedPoint {
 static_assert(sizeof(SerialisedPoint) == 48);
 
 void set_points(GstStructure* structure, const std::vector<SerialisedPoint>& points) {
-  // A GVariant of each number, instead of one for all, takes longer than the analysis of motion.
+  // One array: a GVariant for each number would take longer than the analysis of motion.
   GVariant* array = g_variant_new_fixed_array(
       g_variant_type_element(G_VARIANT_TYPE(GST_SPIDAR_MOTION_POINTS_TYPE)), points.data(),
       points.size(), sizeof(SerialisedPoint));
   gst_structure_set(structure, "points", G_TYPE_VARIANT, array, nullptr);
 }
 
-/// Writes the values that a map of the picture changes.
+/// Writes the values that depend on the geometry of the picture.
 void set_mapped(GstStructure* structure, const GstSpidarFrameMotion& m, const PicturePart& film) {
   gst_structure_set(structure, "width", G_TYPE_UINT, m.width, "height", G_TYPE_UINT, m.height,
                     "velocity-x", G_TYPE_DOUBLE, m.velocity_x, "velocity-y", G_TYPE_DOUBLE,
@@ -91,7 +91,7 @@ PicturePart mapped_area(const Eigen::Matrix3d& map, GstBuffer* from, const GstVi
   return {low.x(), low.y(), high.x() - low.x(), high.y() - low.y()};
 }
 
-/// How lengths and directions change at `position`.
+/// The Jacobian of `map` at `position`.
 Eigen::Matrix2d linear_at(const Eigen::Matrix3d& map, const Eigen::Vector2d& position) {
   const Eigen::Vector3d to = map * position.homogeneous();
   const Eigen::Vector2d at = to.hnormalized();
@@ -109,8 +109,8 @@ std::optional<Eigen::Matrix2d> turn_in(const Eigen::Matrix2d& linear) {
   return svd.matrixU() * svd.matrixV().transpose();
 }
 
-/// Maps lengths with the map; force and torque keep their size, and are turned and mirrored with
-/// it. Returns false where no direction is left.
+/// Applies `map` to the motion. Velocities are scaled; force and torque are only turned and
+/// mirrored. Returns false if `map` is singular at the centre of the picture.
 bool map_motion(const Eigen::Matrix3d& map, GstSpidarFrameMotion& m) {
   const Eigen::Matrix2d linear = linear_at(map, Eigen::Vector2d(m.width, m.height) / 2);
   const Eigen::Vector2d velocity = linear * Eigen::Vector2d(m.velocity_x, m.velocity_y);

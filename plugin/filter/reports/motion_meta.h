@@ -8,8 +8,8 @@
 
 namespace spidar::filter {
 
-/// How GStreamer 1.28 and newer describe that an element cuts, turns or mirrors a picture.
-/// GStreamer may be newer at run time than at build time.
+/// The data with which GStreamer 1.28 and newer describe that an element crops, turns or mirrors a
+/// picture. Declared here too, because GStreamer may be newer at run time than at build time.
 #if GST_CHECK_VERSION(1, 28, 0)
 using MatrixTransform = GstVideoMetaTransformMatrix;
 #else
@@ -30,12 +30,12 @@ inline GQuark matrix_transform() {
 
 /// Registers the custom meta of gstspidarmotionmeta.h; may be called more than once. A copy of a
 /// frame has a copy of the meta. Scaling a frame scales lengths and velocities; from GStreamer 1.28
-/// on, cutting, turning and mirroring also map positions and directions. Other elements that change
-/// the picture drop the meta.
+/// on, cropping, turning and mirroring also map positions and directions. Other elements that
+/// change the picture drop the meta.
 void register_motion_meta();
 
-/// Attaches the report to `buffer`, which is writable, in place of a meta of an element before this
-/// one. `width` and `height` are those of the frame.
+/// Attaches the report to `buffer`, which must be writable, and replaces the meta of an earlier
+/// element. `width` and `height` are those of the frame.
 void attach_motion_meta(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
 }  // namespace spidar::filter

@@ -96,7 +96,7 @@ bool value_widget(const Brush& brush, const Setting& setting, double& value) {
   return number_widget(brush, setting, value);
 }
 
-/// Explains to the left of `panel`, so that the text covers no widget in it.
+/// Shows the help of the hovered setting to the left of `panel`, where it covers no widget.
 void explain(const Brush& brush, const Rect& panel, const Setting& setting) {
   if (!ImGui::IsItemHovered()) return;
   const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -128,7 +128,7 @@ void draw_setting(const Brush& brush, const Rect& panel, const Setting& setting,
   ImGui::PopID();
 }
 
-/// A viewer sets these; the others are for people who know how the element works.
+/// Whether a setting is for viewers; the others are for people who know the element.
 bool is_basic(const Setting& setting) {
   constexpr std::array<const char*, 4> kNames{"motion", "max-force", "alpha", "touch"};
   return std::find(kNames.begin(), kNames.end(), setting.name) != kNames.end();

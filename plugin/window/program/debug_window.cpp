@@ -26,7 +26,7 @@ namespace {
 /// A smaller window cuts text, at a scale of 1.
 constexpr int kMinWidth = 560, kMinHeight = 380;
 constexpr double kNote_s = 4;
-/// After this time without a frame the plots stand still, so that the end of a film stays visible.
+/// After this time without a frame, the plots stop, so that the end of a film stays visible.
 constexpr double kIdle_s = 1;
 /// The scale of text in the coordinates of the window: where a screen has several pixels to one of
 /// them, as with Wayland, the frame buffer already has these pixels.
@@ -48,7 +48,7 @@ double now_s() {
 /// The maker of pictures, for mark_written().
 const std::string kMaker = "spidar-window";
 
-/// Writes pixels of three bytes, the lowest row first. Returns an empty text, or why the file
+/// Writes pixels of three bytes, the lowest row first. Returns an empty string, or why the file
 /// cannot be written.
 std::string write_png(const std::vector<uint8_t>& rgb, int width, int height,
                       const std::string& path) {
@@ -160,7 +160,7 @@ void DebugWindow::read() {
   settings_.update(state_.settings);
   const uint32_t epoch_before = report_.stamp.epoch;
   const std::string film_before = report_.film.name();
-  // The picture on the screen is that of the device's moment.
+  // Show the picture of the running time that the device renders.
   const bool plays = state_.device && state_.device->last.playing;
   std::optional<QueuedFrame> frame =
       link_.frames().show(plays ? std::optional(state_.device->last.running_ns) : std::nullopt);

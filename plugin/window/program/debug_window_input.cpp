@@ -85,7 +85,7 @@ void DebugWindow::on_key(int key) {
   }
 }
 
-/// At its end the film begins again.
+/// Plays or pauses the film; at its end, plays it again.
 void DebugWindow::toggle_play() {
   if (state_.has_ended) link_.seek(0);
   if (!state_.has_ended || !state_.is_playing) link_.play(!state_.is_playing);
@@ -199,7 +199,7 @@ void DebugWindow::draw_choices(const Brush& brush, const Rect& panel) {
   if (actions.seek_ns) link_.seek(*actions.seek_ns);
 }
 
-/// Removing the choice that is felt releases its object.
+/// Removes a choice, and releases its object if that is felt now.
 void DebugWindow::remove_choice(const FeelRule& rule) {
   const int64_t now_ns = report_.stamp.stream_ns;
   if (rule.from_ns <= now_ns && now_ns < rule.to_ns && report_.click != 0) {

@@ -26,7 +26,7 @@ double fraction_of_range(const DeviceView& device, int string) {
   return high_N > low_N ? (device.last.tension_N[string] - low_N) / (high_N - low_N) : 0;
 }
 
-/// The grip's own lengths on the screen.
+/// Maps points and lengths of the grip to the screen.
 struct GripView {
   const Brush& brush;
   const GripProjection& project;

@@ -83,7 +83,7 @@ void draw_new_and_lost(const Overlay& over) {
   }
 }
 
-/// Draws the film area, unless that is the whole picture.
+/// Draws the border of the film area.
 void draw_area(const Overlay& over) {
   const PicturePart film = over.report.film_part();
   const Eigen::Vector2d corner(film.x, film.y), half(0.5, 0.5);
@@ -97,7 +97,7 @@ void draw_objects(const Overlay& over) {
   for (const MovingObject& object : over.report.frame.objects) {
     if (object.points == 0) continue;
     const auto [low, high] = over.box(object);
-    // A click has an effect before the next frame comes, and while the film is paused.
+    // Show the effect of a click before the next frame comes, and while the film is paused.
     const std::optional<uint32_t>& requested = over.picture.requested;
     const bool is_felt =
         requested.value_or(0) != 0 ? *requested == object.id : over.is_felt(object.id);
@@ -172,7 +172,7 @@ void draw_touch(const Overlay& over, const TouchMark& touch, const ArrowStyle& s
   brush.list.AddCircleFilled(im(proxy_px), radius_px, kFeltColor);
 }
 
-/// The relief belongs to the shown picture, and the texture has the stored one.
+/// Turns the relief, which is as displayed, to the stored orientation, which the panel shows.
 void draw_relief(const Brush& brush, const Rect& shown, const ShownPicture& picture,
                  const Orientation& turn) {
   const auto at = [&](double x, double y) { return im(turn.displayed_position({x, y})); };

@@ -61,7 +61,7 @@ class PlayerLink {
   std::vector<ForceTick> take_ticks() { return std::exchange(ticks_, {}); }
   FrameQueue& frames() { return frames_; }
   std::vector<UserInput> take_inputs() { return std::exchange(inputs_, {}); }
-  /// The file for a picture of the next drawing.
+  /// The file into which the next drawing must be saved, if any.
   std::optional<std::string> wanted_picture() const { return wanted_picture_; }
   /// Tells the element whether the picture was written, see PictureTaken.
   void picture_taken(const std::string& error);

@@ -69,8 +69,8 @@ double highest_speed_px_s(const Timeline& timeline) {
   return std::max(kHeadroom * robust_largest(std::move(speeds_px_s)), kMinSpeed_px_s);
 }
 
-/// Shades the speeds whose force is weaker than kFeltForce_N. `adaptive` has the dead zone of an
-/// unknown error, which is not that of each frame.
+/// Shades the speeds whose force is weaker than kFeltForce_N. For `adaptive`, the dead zone is
+/// that of an unknown error, not of the error of each frame.
 void shade_unfelt(const Brush& brush, const Plot& plot, const std::vector<double>& curve_N,
                   double highest_px_s) {
   const auto felt = std::find_if(curve_N.begin(), curve_N.end(),

@@ -20,7 +20,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A player may stand still in a debugger; the window continues to draw.
+/// A player may be stopped in a debugger; the window continues to draw.
 constexpr milliseconds kPatience{100};
 /// For the first answer, without which the window has no name.
 constexpr milliseconds kFirstPatience{5000};
@@ -51,7 +51,7 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
     window.draw();
     if (picture) link.picture_taken(window.save(*picture));
     window.present();
-    // Where the processor draws, half of its time remains for others.
+    // With software rendering, leave half of the time to other programs.
     const std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now();
     const std::chrono::steady_clock::duration left = std::max(begin + period - end, end - begin);
     link.pause(std::chrono::duration_cast<milliseconds>(left));

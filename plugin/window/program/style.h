@@ -70,7 +70,7 @@ void draw_text(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
 /// Wraps lines at this width, around the height of `at`.
 void draw_wrapped(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                   const std::string& text, float width_px);
-/// The text ends at `at` instead of beginning there.
+/// Draws text that ends at `at`.
 void draw_text_before(const Brush& brush, const ImFont* font, ImVec2 at, ImU32 color,
                       const std::string& text);
 /// Draws text on a dark rounded background, readable on any picture. `at` is its upper left corner.

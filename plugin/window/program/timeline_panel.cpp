@@ -64,7 +64,6 @@ void draw_strip(const Brush& brush, const Rect& position, const FilmStrip& strip
                      brush.px(2));
 }
 
-/// Handles the mouse over the strip.
 void use_strip(const Brush& brush, const Rect& position, const FilmStrip& strip,
                TimelineActions& actions) {
   ImGui::SetCursorScreenPos(im(position.x, position.y - 2 * brush.scale));

@@ -28,7 +28,7 @@ static_assert(sizeof(Header) == 12, "without padding");
 constexpr size_t kMaxFiles = 4;
 constexpr size_t kReadBytes = 64 << 10;
 
-/// A descriptor in a socket counts only until the socket is closed.
+/// Whether an error is final: EAGAIN and ENOBUFS only mean that the call must be repeated later.
 bool is_refused(int error) {
   return error != EAGAIN && error != ENOBUFS;
 }

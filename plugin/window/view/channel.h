@@ -10,8 +10,8 @@
 
 namespace spidar::window {
 
-/// One end of the socket between a player and its window. A packet is a header, with the protocol's
-/// version and the length, and as many bytes, and may have a file. No function waits. One thread.
+/// One end of the socket between a player and its window. A packet is a header with the protocol's
+/// version and the length, that many bytes, and perhaps a file. No function blocks. One thread.
 class Channel {
  public:
   /// The largest packet, and the most files that may wait. More means that the other end is broken.

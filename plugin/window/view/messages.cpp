@@ -175,7 +175,7 @@ class Wire {
     if constexpr (kReads) text.resize(count);
     raw(text.data(), count);
   }
-  /// An empty text stands for null.
+  /// An empty string stands for null.
   void one(std::shared_ptr<const std::string>& path) {
     std::string text = path ? *path : "";
     one(text);
@@ -255,13 +255,13 @@ std::vector<uint8_t> write(const Message& message) {
   Wire<false> wire;
   auto kind = static_cast<uint8_t>(message.index());
   wire.one(kind);
-  // A writer changes nothing; only a reader does.
+  // The cast is safe, because a writer does not change the message.
   std::visit([&](auto& content) { wire.one(content); }, const_cast<Message&>(message));
   return std::move(wire.bytes());
 }
 
-/// Finds the kind whose number is `kKind`, or a later one; nothing when there is no such kind, or
-/// the bytes are not those of one.
+/// Reads a message of the kind `kind`, searching from the kind `kKind` on. Returns nothing if there
+/// is no such kind, or the bytes are not exactly one such message.
 template <typename Message, size_t kKind = 0>
 std::optional<Message> read_kind(Wire<true>& wire, size_t kind) {
   if constexpr (kKind < std::variant_size_v<Message>) {

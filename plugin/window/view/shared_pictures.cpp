@@ -44,7 +44,7 @@ PictureSlots::PictureSlots(uint32_t id, const GstVideoFrame& frame)
   description_ = {id, caps_text(info_), kSlots, GST_VIDEO_INFO_SIZE(&info_)};
   const size_t bytes = size_t{kSlots} * GST_VIDEO_INFO_SIZE(&info_);
   file_ = memfd_create("spidar-window", MFD_CLOEXEC | MFD_ALLOW_SEALING);
-  // The seal ensures that reading beyond its end cannot kill the window.
+  // The seals fix the size: otherwise, reading beyond the end of a shorter file kills the window.
   if (file_ < 0 || ftruncate(file_, static_cast<off_t>(bytes)) != 0 ||
       fcntl(file_, F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL) != 0) {
     return;

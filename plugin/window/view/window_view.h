@@ -56,8 +56,8 @@ struct ElementState {
 };
 
 /// Returns the last line of the window: "felt", or "not felt: " and why; "felt: " and why, while
-/// the force is only lowered. `now` is the force of this moment, `no_force` that of the last
-/// second. While the surface is felt, also says when the device gets less stiffness than is set.
+/// the force is only lowered. `now` is the present wrench, `no_force` covers the last second.
+/// While the surface is touched, also tells when less stiffness is rendered than is set.
 inline std::string felt_line(const ElementState& state, const TouchScene& touch,
                              const Wrench& now) {
   if (state.has_ended) return state.no_force;

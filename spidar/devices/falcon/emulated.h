@@ -38,7 +38,7 @@ class Falcon final : public Board {
   Memory own_memory_{{true}, {0}};
   Memory* memory_ = &own_memory_;
   Eigen::Vector3d angles_rad_ = Eigen::Vector3d::Constant(falcon::kAngleAtZero_rad);
-  bool loader_ = false;  ///< the loader runs: toggling DTR starts it, and the fast line ends it
+  bool loader_ = false;  ///< whether the loader runs; toggling DTR starts it, and kRunBaud ends it
   bool takes_firmware_ = false;
   falcon::Packet packet_{};  ///< the packet that is being received
   size_t taken_ = 0;

@@ -148,7 +148,7 @@ LinkFault Falcon::ask(const falcon::Command& command, int64_t deadline_ns) noexc
   return LinkFault::kWrongReply;
 }
 
-/// Returns whether the firmware answers.
+/// Returns kNone if the firmware answers.
 LinkFault Falcon::start() noexcept {
   const LinkFault fault = set_line(falcon::kRunLine);
   if (fault != LinkFault::kNone) return fault;
@@ -161,7 +161,7 @@ LinkFault Falcon::greet_loader() noexcept {
   for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
     const LinkFault said = say(falcon::kHello, answer, soon_ns());
     if (said == LinkFault::kGone) return said;
-    // A zero byte in front leaves no room for the last byte.
+    // If a zero byte comes first, the last byte of the answer does not fit.
     const size_t zero = answer[0] == 0 ? 1 : 0;
     if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
       return set_line(falcon::kLoadLine);
@@ -201,7 +201,7 @@ void Falcon::open() {
   update();
 }
 
-/// Takes the position from the counts, if every encoder has passed its mark.
+/// Computes the position from the counts, if every encoder has passed its mark.
 void Falcon::update() noexcept {
   position_.reset();
   if (!seen_.all_homed()) return;

@@ -60,14 +60,14 @@ constexpr double kDigitsPerNm = -10000;
 enum class Light : uint8_t { kNone = 0, kGreen = 2, kBlue = 4, kRed = 8 };
 
 struct Command {
-  std::array<int, 3> digit{};  ///< of the motors, clockwise from the top as the user sees them
+  std::array<int, 3> digit{};  ///< for the motors, clockwise from the top as the user sees them
   Light light = Light::kNone;
   /// The encoders find their marks while the grip passes them, and remember them.
   bool homing = true;
 };
 
 struct Reading {
-  std::array<int16_t, 3> count{};  ///< of the encoders, see angle_rad()
+  std::array<int16_t, 3> count{};  ///< counts of the encoders, see angle_rad()
   uint8_t buttons = 0;             ///< bits 0–3: right, forward, centre, left
   uint8_t homed = 0;               ///< bits 0–2: encoders that have found their marks
   bool all_homed() const noexcept { return homed == 7; }

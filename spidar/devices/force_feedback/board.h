@@ -76,7 +76,7 @@ class ForceFeedback final : public ForceBoard {
   }
 
  private:
-  const Eigen::Vector2d reach_m_;  ///< of the stick, to the right and up
+  const Eigen::Vector2d reach_m_;  ///< range of the stick, to the right and up
   const std::shared_ptr<StickEffects> effects_;
   std::atomic<int> force_axes_{2};     ///< 1: only x; 0: the device only rumbles
   std::atomic<int> position_axes_{2};  ///< 1: only x

@@ -72,8 +72,8 @@ EvdevTraits evdev_traits(int file);
 /// when the ID does not tell.
 int axes_by_id(const EvdevTraits& traits) noexcept;
 
-/// Returns whether the second axis of the device is a pedal or a lever, not the other direction of
-/// a stick, which Linux does not report. On a wheel that is taken for a joystick, vertical forces
+/// Returns whether the second axis of the device is a pedal or a lever instead of the other axis of
+/// a stick; Linux does not report that. On a wheel that is taken for a joystick, vertical forces
 /// would turn the wheel; a joystick that is taken for a wheel only lacks these forces. When in
 /// doubt, a device therefore counts as a wheel. The signs of a wheel are its USB ID, its name, an
 /// axis or a button that only wheels have, and pedals. A joystick that can be twisted has ABS_RZ,

@@ -117,7 +117,7 @@ void EvdevTransport::open() {
   if (call_ioctl(file_, EVIOCGVERSION, &version) < 0) fail(path, "cannot be used");
   if (!lock_device(file_)) fail(path, "cannot be locked");
   try {
-    // The open file decides: since the listing, its number may have gone to another device.
+    // Check the open file: since the listing, its number may have passed to another device.
     first_.require(name_, evdev_identity(file_));
   } catch (...) {
     close();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Access to force-feedback devices of Linux through evdev.
+/// Force-feedback devices of Linux.
 #pragma once
 
 #include <array>

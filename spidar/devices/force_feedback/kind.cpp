@@ -10,8 +10,8 @@
 namespace spidar {
 namespace {
 
-/// Takes one of axes=N, gain=PERCENT, flip=x, flip=y and flip=xy. Returns false for any other text,
-/// and for an option that was given before.
+/// Parses axes=N, gain=PERCENT, flip=x, flip=y or flip=xy. Returns false for any other text, and
+/// for an option that was given before.
 bool take_option(const std::string& option, int& axes, boards::StickEffects::Options& options) {
   if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
   if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0) {

@@ -41,7 +41,7 @@ struct Description {
   uint8_t gain = 0;        ///< FF_GAIN
   uint8_t autocentre = 0;  ///< FF_AUTOCENTER
   uint8_t effects = 0;     ///< how many effects the device holds at once, at most 255
-  uint8_t axes = 0;        ///< of the position: 0, 1 (a wheel) or 2
+  uint8_t axes = 0;        ///< number of axes of the position: 0, 1 (a wheel) or 2
   uint8_t buttons = 0;     ///< number of the buttons, at most 32
   /// The driver turns autocentre on when the device is plugged in; other drivers turn it off.
   uint8_t starts_centred = 0;

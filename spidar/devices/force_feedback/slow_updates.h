@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// For a device whose updates are slow, what the fast exchanges know: the position, and whether the
+/// What the fast exchanges know about a device with slow updates: the position, and whether the
 /// device still responds.
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace spidar::boards {
 
-/// A driver that needs 50 ms for an update gives a position every 55 ms, and a hand moves a stick
-/// by 20 mm in that time. To a damper, such a step would look like a very fast hand. The position
-/// therefore moves to a new reading at a constant speed, for as long as the last update took. This
-/// costs no delay: the update that sets a level also brings the next reading, just when the
-/// position has arrived.
+/// Interpolates the position of a stick. A driver that needs 50 ms for an update gives a position
+/// every 55 ms, while a hand moves a stick by 20 mm: to a damper, the step of a very fast hand. The
+/// position therefore moves to a new reading at a constant speed, for as long as the last update
+/// took. This does not delay the force: the update that sets a level also brings the next reading,
+/// just when the position has arrived.
 ///
-/// The thread that makes the updates calls update(), the thread that exchanges everything else.
+/// The thread of the updates calls update(); the thread of the exchanges calls everything else.
 class StickPosition {
  public:
-  /// The longest time that the position takes to a new reading.
+  /// The longest time in which the position moves to a new reading.
   static constexpr int64_t kLongest_ns = 100'000'000;
 
   /// Call this before the first update().
@@ -79,7 +79,7 @@ class StickPosition {
 /// in a row, or none has ended for kPatience_ns because the driver does not return. The device
 /// holds its last force meanwhile, so the loop must not take the device for a healthy one.
 ///
-/// The thread that makes the updates calls finish(), the thread that exchanges everything else.
+/// The thread of the updates calls finish(); the thread of the exchanges calls everything else.
 class UpdateWatch {
  public:
   /// Failures in a row after which all exchanges fail, as for a board on USB (see StringLink): a
@@ -119,7 +119,7 @@ class UpdateWatch {
 
  private:
   struct Updates {
-    LinkFault fault = LinkFault::kNone;  ///< of the last update that failed
+    LinkFault fault = LinkFault::kNone;  ///< fault of the last update that failed
     uint32_t failed = 0;
     uint32_t in_a_row = 0;  ///< failed updates since the last success
     int64_t finished_ns = 0;

@@ -18,7 +18,7 @@ namespace {
 constexpr int64_t kMs = kSecond_ns / 1000;
 constexpr int64_t kUpdate_ns = StickEffects::kUpdate_ms * kMs;
 constexpr int64_t kRefresh_ns = StickEffects::kRefresh_ms * kMs;
-/// The centring spring of a stick returns within this time, because a jump could hurt a hand.
+/// The centring spring of a stick returns gradually in this time: a jump could hurt a hand.
 constexpr int kCentring_ms = 100;
 
 template <typename Structure>
@@ -194,7 +194,7 @@ void StickEffects::return_settings_later() noexcept {
   try {
     transport_->open();
   } catch (const std::exception&) {
-    return;  // the device was unplugged, after which its driver begins anew
+    return;  // the device was unplugged: its driver resets the settings when it is plugged in
   }
   return_settings();
   transport_->close();
@@ -279,7 +279,7 @@ void StickEffects::update() noexcept {
 void StickEffects::run() noexcept {
   while (!stop_) {
     update();
-    // The pause begins at the end of the update, so that a slow driver gets no denser calls.
+    // The pause begins at the end of the update, so that a slow driver is not called more often.
     sleep_until_ns(monotonic_now_ns() + kUpdate_ns);
   }
   end_effects();
@@ -322,7 +322,7 @@ void StickEffects::end_effects() noexcept {
     const bool stopped = send(ff::encode_play(effects_[i].number, false)).fault == LinkFault::kNone;
     rests = rests && (stopped || (effects_[i].level == 0 && effects_[i].known));
   }
-  // More gain would make an effect stronger that still plays; that effect ends by itself.
+  // A higher gain would strengthen an effect that still plays: wait until it ends by itself.
   if (!rests && !reopening_ && updates_ == Updates::kOwnThread) {
     sleep_until_ns(monotonic_now_ns() + kEffect_ms * kMs);
   }

@@ -29,8 +29,8 @@ namespace spidar::boards {
 ///
 /// No one can end a call of a driver that hangs: until the call returns, the kernel lets no other
 /// call to the device pass, not even the guardian's. report() then returns a timeout, see
-/// UpdateWatch. close() leaves the thread behind, which shares the ownership of this object and
-/// releases the device when the driver returns.
+/// UpdateWatch. close() detaches the thread, which shares the ownership of this object and releases
+/// the device when the driver returns.
 ///
 /// A device that is only opened and read keeps its gain and its autocentre.
 class StickEffects : public std::enable_shared_from_this<StickEffects> {
@@ -124,14 +124,14 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   size_t turn_ = 0;  ///< index of the effect that the next update checks first
   int64_t cycle_ = 0;
   std::thread thread_;
-  std::future<void> ended_;  ///< of the thread; not valid before there is one
+  std::future<void> ended_;  ///< ready when the thread has ended; invalid before the first thread
   std::atomic<bool> stop_{false};
   std::atomic<bool> reopening_{false};
   std::atomic<bool> pulled_{false};    ///< whether forces were on since open()
-  std::atomic<int64_t> cycled_ns_{0};  ///< the latest cycle()
+  std::atomic<int64_t> cycled_ns_{0};  ///< time of the latest cycle()
   bool has_settings_ = false;          ///< take_settings() has succeeded
   bool settings_changed_ = false;  ///< not restored yet; since then, other openings may have been
-  std::vector<ff::EventBytes> former_settings_;  ///< of the open device
+  std::vector<ff::EventBytes> former_settings_;  ///< settings to restore on the open device
   UpdateWatch updated_;
   std::array<std::atomic<double>, 2> force_N_{};
   StickPosition position_;

@@ -95,7 +95,7 @@ class Inverse3 final : public OnTransport<ForceBoard> {
   GripAbilities abilities() const noexcept override { return kAbilities; }
 
  private:
-  /// Half of the side of the square that fits the circle of kReach_m.
+  /// Half the side of the square that fits into the circle of kReach_m.
   static constexpr double kHalfSide_m = 0.7 * inverse3::kReach_m;
   static constexpr GripAbilities kAbilities{
       .torque = false,
@@ -195,7 +195,7 @@ boards::AnyBoard make_inverse3(const std::string& name, const std::string& rest,
   return std::make_unique<boards::Inverse3>(name, std::move(service), rest.substr(0, comma));
 }
 
-/// A query would open a session in the service.
+/// Does not query the service, because a query would open a session in it.
 std::vector<DeviceInfo> list_inverse3() {
   if (!is_listening(inverse3::kPort)) return {};
   DeviceInfo board;

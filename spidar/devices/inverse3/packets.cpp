@@ -52,7 +52,7 @@ bool is_true(const ReadJson* flag, bool otherwise) {
   return flag && flag->is_boolean() ? flag->get<bool>() : otherwise;
 }
 
-/// Messages contain the id as it is, so it must be plain.
+/// Messages contain the id without escapes, so it must have plain characters only.
 bool is_id(const ReadJson* id) {
   if (!id || !id->is_string()) return false;
   const auto& text = id->get_ref<const std::string&>();
@@ -62,7 +62,7 @@ bool is_id(const ReadJson* id) {
          });
 }
 
-/// Looks in the list of Inverse3s of a message, or of commands; null if the device is not there.
+/// Finds the device in the list of Inverse3s of a message, or of commands; null if it is absent.
 const ReadJson* device_in(const ReadJson& message, std::string_view id) {
   const ReadJson* devices = field(&message, "inverse3");
   if (!devices || !devices->is_array()) return nullptr;
@@ -123,7 +123,7 @@ class Writer {
     }
     return *this;
   }
-  /// Appends micrometres or micronewtons, with a decimal point in every language.
+  /// Appends numbers with six decimals, and with a decimal point in every locale.
   Writer& vector(const Eigen::Vector3d& vector) noexcept {
     return text("{\"x\":")
         .number(vector.x())

@@ -8,10 +8,10 @@
 /// service answers each message with one that has the state of every device. Positions are in m,
 /// forces in N, x to the right, y away from the user, z up.
 ///
-/// We infer that the version shows in the state, which has current_cursor_force since 3.5; where
-/// the middle of the workspace is without the preset that puts the origin there (the crate's
-/// examples put their objects there); which button is which; and the largest force, of which only
-/// distributors write. The functions only convert text and numbers; the parser of JSON allocates.
+/// Inferred: the version from the state, which has current_cursor_force since 3.5; the middle of
+/// the workspace without the preset that puts the origin there (the crate's examples place their
+/// objects there); the order of the buttons; and the largest force, which only distributors state.
+/// The functions only convert text and numbers; the parser of JSON allocates.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ constexpr uint16_t kPort = 10001;
 constexpr double kLargestForce_N = 10;
 /// The published examples keep the cursor this close to the middle of the workspace.
 constexpr double kReach_m = 0.1;
-/// Every true position is nearer to the foot of the device; a larger number is in another unit.
+/// Every valid position is nearer to the foot of the device; a larger number has another unit.
 constexpr double kFarthest_m = 1;
 constexpr int kButtons = 3;
 constexpr size_t kCommandSize = 512;  ///< longest message to the service

@@ -77,7 +77,7 @@ class GripDynamics {
 /// Rotation vector of `rotation`, in radians, with an angle of at most π.
 Eigen::Vector3d rotation_vector(const Eigen::Quaterniond& rotation) noexcept;
 
-/// A pure delay, as of a board, its amplifiers and its packets. Fixed size, no allocation.
+/// A pure delay, such as that of a board with amplifiers and packets. Fixed size, no allocation.
 class DelayedTensions {
  public:
   /// At one command per millisecond, a delay of 50 ms holds 50 commands.

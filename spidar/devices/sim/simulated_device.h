@@ -22,7 +22,7 @@ namespace spidar {
 struct FeltState {
   int64_t time_ns = 0;  ///< simulated time since open()
   StringVector tension_N = StringVector::Zero();
-  Wrench wrench;  ///< of the strings on the grip
+  Wrench wrench;  ///< wrench of the strings on the grip
   Pose pose;
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d angular_velocity_rad_s = Eigen::Vector3d::Zero();  ///< in D
@@ -82,8 +82,8 @@ class SimulatedDevice final : public StringDevice {
 
   FeltState felt() const noexcept;
 
-  /// Gives the next state, one per exchange, to one reader. Returns false when there is none. The
-  /// queue keeps up to 4096 states, and drops newer ones while it is full.
+  /// Removes the oldest state, one per exchange, for one reader. Returns false when there is none.
+  /// The queue keeps up to 4096 states, and drops newer ones while it is full.
   bool pop_felt(FeltState& felt) noexcept;
 
  private:

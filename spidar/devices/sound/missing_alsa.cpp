@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// The kinds of a build without ALSA.
+// The sound cards of a build without ALSA: none is listed, and none can be opened.
 #include "spidar/device.h"
 #include "spidar/devices/sound/sound_cards.h"
 #include "spidar/devices/sound/sound_transport.h"

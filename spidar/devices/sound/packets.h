@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Forces as vibration of what is connected to a sound card: bass shakers, and pads whose actuators
-/// are a sound card (the DualSense: four channels, of which the last two are its voice coils;
+/// Forces as vibration of actuators at a sound card: bass shakers, and gamepads whose actuators
+/// form a sound card (the DualSense: four channels, of which the last two are its voice coils;
 /// hid-playstation of Linux and SDL leave these to the sound driver). The functions only convert
 /// numbers, bytes and samples.
 #pragma once
@@ -57,7 +57,7 @@ Levels levels_of(const Settings& settings, const Eigen::Vector3d& force_N) noexc
 
 /// The answer to a packet.
 struct State {
-  int64_t lag_ns = 0;     ///< from a level to its sound, as the card reports it
+  int64_t lag_ns = 0;     ///< lag from a level to its sound, as the card reports it
   int32_t underruns = 0;  ///< how often the card ran out of sound since it was opened
   int32_t period_ms = 0;  ///< interval at which the card takes sound
 };
@@ -67,9 +67,9 @@ ByteView view_of(const Packet& packet) noexcept {
   return {reinterpret_cast<const uint8_t*>(&packet), sizeof packet};
 }
 
-/// Generates the samples: a sine of constant frequency in all channels, whose amplitude goes from
-/// one level to another within one period, from its beginning to its end. No change clicks, and for
-/// any levels the samples add up to zero, so that a shaker is not pushed to a side.
+/// Generates the samples: a sine of constant frequency in all channels, whose amplitude changes
+/// linearly from one level to the next over one period. No change clicks, and for any levels the
+/// samples add up to zero, so that a shaker is not pushed to one side.
 class Carrier {
  public:
   explicit Carrier(int frequency_Hz) noexcept : step_(frequency_Hz / double{kRate_Hz}) {}

@@ -13,7 +13,7 @@ extern "C" snd_local_error_handler_t set_alsa_error_handler(
     snd_local_error_handler_t handler) __asm__("snd_lib_error_set_local");
 
 /// During the lifetime of this object, ALSA's library does not print errors of this thread on the
-/// standard error: the DeviceError has what matters. A handler that the program has set stays.
+/// standard error: the DeviceError reports them. A handler that the program has set stays.
 class QuietAlsa {
  public:
   QuietAlsa() noexcept : before_(set_alsa_error_handler(ignore)) {}

@@ -54,7 +54,7 @@ class SoundTransport::Pcm {
   int period_ms() const noexcept {
     return static_cast<int>(ns_of(static_cast<snd_pcm_sframes_t>(period_)) / kMillisecond_ns);
   }
-  /// For how long the buffer lasts.
+  /// How long the used part of the buffer plays.
   int64_t held_ns() const noexcept { return ns_of(held_); }
   bool is_running() const noexcept { return snd_pcm_state(handle_) == SND_PCM_STATE_RUNNING; }
 
@@ -173,7 +173,7 @@ std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
 int SoundTransport::Pcm::write(const uint8_t* block) noexcept {
   const snd_pcm_sframes_t written = snd_pcm_writei(handle_, block, sound::kBlockFrames);
   if (written < 0) return static_cast<int>(written);
-  // Blocks keep the pace of a card even for a file; no card's clock is wrong by 2 %.
+  // Limits the pace even when ALSA writes to a file; no card's clock is wrong by 2 %.
   next_ns_ = std::max(next_ns_, monotonic_now_ns() - held_ns()) + kBlock_ns * 49 / 50;
   return 0;
 }
@@ -242,7 +242,7 @@ Transfer SoundTransport::transfer(std::initializer_list<ByteView> packets, Mutab
   return {LinkFault::kNone, length};
 }
 
-/// The card's answer contains the lateness of a wake-up; the loop can count on the mean.
+/// Averages the lag, because each value contains the lateness of one wake-up.
 void SoundTransport::set_lag(int64_t lag_ns) noexcept {
   constexpr int kAveraged = 16;
   lag_ns_ = lag_ns_ == 0 ? lag_ns : lag_ns_ + (lag_ns - lag_ns_) / kAveraged;

@@ -27,7 +27,7 @@ class SoundTransport final : public Transport {
   static constexpr int kAhead_ms = 2 * sound::kBlock_ms;
   /// The buffer of a card that accepts short periods.
   static constexpr int kBuffer_ms = kAhead_ms + sound::kBlock_ms;
-  /// A card stands still when it takes nothing for this time beyond the playing time of its buffer.
+  /// A card has a fault if it takes no sound for this time beyond the playing time of its buffer.
   static constexpr int kPatience_ms = 100;
   /// A card that takes nothing for this time is opened again.
   static constexpr int kHopeless_ms = 1000;

@@ -62,7 +62,7 @@ void Uart::find_all(int64_t patience_ns) {
   }
 }
 
-/// Other boards may now be behind the same adapter.
+/// Throws if other boards answer than before: they may now be connected to the same adapter.
 void Uart::require_same_stations() {
   if (first_description_.empty()) first_description_ = description();
   if (description() == first_description_) return;

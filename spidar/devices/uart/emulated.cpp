@@ -17,7 +17,7 @@ void Uart::receive(ByteView bytes) noexcept {
   }
 }
 
-/// Takes a byte between commands: a zero only gives time for a reply, any other byte is a header.
+/// Handles a byte between commands: a zero only gives time for a reply; any other is a header.
 void Uart::begin(uint8_t header) noexcept {
   if (header == 0) return;
   first_ = 0;

@@ -10,7 +10,7 @@
 
 namespace spidar::emulated {
 
-/// The emulated UART motor boards. They take the bytes of the line in pieces of any size, as the
+/// The emulated UART motor boards. They accept the bytes of the line in pieces of any size, as the
 /// interrupts of the real boards do.
 class Uart final : public Board {
  public:
@@ -36,7 +36,7 @@ class Uart final : public Board {
   const Station* station_ = nullptr;
   size_t first_ = 0;  ///< first motor of the station
   std::array<uint8_t, 256> command_{};
-  size_t length_ = 0;  ///< of the whole command
+  size_t length_ = 0;  ///< length of the whole command
   size_t taken_ = 0;
   // Replies that have not been read yet.
   std::array<uint8_t, 1024> reply_{};

@@ -62,7 +62,7 @@ constexpr size_t current_command_length(size_t motors) noexcept {
 constexpr size_t current_reply_length(size_t motors, size_t forces) noexcept {
   return 1 + 4 * motors + 2 * forces;
 }
-/// Counts the zeros during which the board replies.
+/// Includes the zeros during which the board replies.
 constexpr size_t current_cycle_length(size_t motors, size_t forces) noexcept {
   const size_t command = current_command_length(motors);
   const size_t reply = current_reply_length(motors, forces);

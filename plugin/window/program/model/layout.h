@@ -15,7 +15,7 @@ Rect fit(const Rect& outer, double aspect);
 /// The size of a window when it opens, at a scale of 1.
 constexpr int kUsualWidth_px = 1280, kUsualHeight_px = 800;
 /// The scale of text and lines: that of the screen, and more in a larger window, in steps of an
-/// eighth, because each step draws the fonts anew.
+/// eighth, because each step loads the fonts again.
 double text_scale(double screen_scale, int width, int height);
 
 struct Layout {

@@ -67,7 +67,7 @@ struct ChoiceRequest {
 class ObjectClick {
  public:
   /// `picture` is the part of the window that shows the visible part of the frame. Returns nothing
-  /// when nobody clicked on an object.
+  /// when no object was clicked.
   std::optional<ChoiceRequest> update(const Mouse& mouse, const Rect& picture,
                                       const DrawnFrame& report) {
     const bool pressed = mouse.down && !was_down_;

@@ -10,14 +10,14 @@ namespace spidar::window {
 namespace {
 
 constexpr int64_t kMillisecond = 1'000'000;
-constexpr int64_t kLongestFrame_ns = 1'000'000'000;  ///< more than two frames of any film are apart
+constexpr int64_t kLongestFrame_ns = 1'000'000'000;  ///< longer than between two frames of any film
 
-/// The begin of the millisecond: a rule from there on holds for the frame.
+/// Rounds down to a millisecond, so that a rule from there on holds for the frame.
 int64_t whole(int64_t ns) {
   return ns / kMillisecond * kMillisecond;
 }
 
-/// A position as a person reads it: a thousandth is less than a pixel of most films.
+/// Rounds a position to thousandths, for people who read the rules.
 Eigen::Vector2d whole(const Eigen::Vector2d& position) {
   return (position * 1000).array().round() / 1000;
 }
@@ -91,7 +91,7 @@ bool SceneChoices::end_scene() {
   return has_ended;
 }
 
-/// A rule in the file must be removed from the file, too.
+/// Takes choices back. A saved one remains as an edit that removes its rule from the file.
 void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
   for (Choice& choice : choices_) {
     if (!choice.grows || !which(choice)) continue;

@@ -43,7 +43,7 @@ class SeenObjects {
   /// An object that has been invisible for longer is forgotten, because it would return as another.
   static constexpr int64_t kForgotten_ns = 2'000'000'000;
 
-  /// Takes the next frame on the screen. Another scene or film forgets all objects.
+  /// Processes the next frame on the screen. In another scene or film, forgets all objects.
   void update(const DrawnFrame& report);
   /// Returns null for an unknown object.
   const SeenObject* find(uint32_t id) const;
@@ -60,7 +60,7 @@ class SeenObjects {
 /// last seen. Times are whole milliseconds.
 class SceneChoices {
  public:
-  /// Takes the next frame on the screen. Returns true when a choice ends with its scene.
+  /// Processes the next frame on the screen. Returns true when a choice ends with its scene.
   bool update(const DrawnFrame& report);
 
   /// When the object of a choice was last seen, if it has been lost since the last call.
@@ -73,16 +73,16 @@ class SceneChoices {
   void undo_last();
   /// Removes all rules from one time to another.
   void remove(int64_t from_ns, int64_t to_ns);
-  /// Tells that the scene has ended. Returns true when a choice ends with it.
+  /// Ends the scene. Returns true when a choice ends with it.
   bool end_scene();
 
   bool has_unsaved() const;
   /// Whether a choice was saved before its end was known, and the end is known now.
   bool has_late_end() const;
   std::vector<FeelEdit> edits() const;
-  /// Tells that the edits have been saved; complete ones are forgotten.
+  /// Call this when the edits have been saved; forgets complete ones.
   void saved();
-  /// Tells that the edits could not be saved: the user must save again.
+  /// Call this when the edits could not be saved: the user must save again.
   void not_saved();
 
  private:

@@ -50,7 +50,7 @@ std::vector<ForceColumn> Timeline::columns(double from_s, double to_s, size_t co
     const double fraction = (time_s(*tick) - from_s) / (to_s - from_s);
     const size_t at =
         std::min(static_cast<size_t>(fraction * static_cast<double>(count)), count - 1);
-    // Beginning with the tick before leaves no gap in the curve.
+    // Include the previous tick, so that the curve has no gap.
     for (size_t i = before; last && i <= at; ++i) {
       if (time_s(*tick) - time_s(*last) <= kGap_s) include(columns[i], *last);
     }

@@ -46,7 +46,7 @@ class Timeline {
   void add(const Moment& moment);
   /// Adds a force of a device; times must rise.
   void add(const ForceTick& tick);
-  /// Begins another stream, to which the recorded data do not belong.
+  /// Discards the recorded data, because another stream begins.
   void clear();
 
   /// The time of the newest moment; 0 when there is none.

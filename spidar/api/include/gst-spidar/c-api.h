@@ -4,10 +4,10 @@
  * device.h and motion.h in C, for programs in C and for languages that call C (Python's ctypes and
  * cffi, Julia, Rust, C#, …).
  *
- * Functions that can fail take a GstSpidarError last. It may be NULL; otherwise they set it each
- * time, also when all is well. No other pointer may be NULL unless that is stated. No exception of
- * C++ leaves a function. Coordinates are those of wrench.h: right-handed, x right, y up, z towards
- * the viewer. */
+ * The last argument of a function that can fail is a GstSpidarError. It may be NULL; otherwise each
+ * call sets it, even when all is well. No other pointer may be NULL unless that is stated. No
+ * function throws a C++ exception. Coordinates are those of wrench.h: right-handed, x right, y up,
+ * z towards the viewer. */
 #ifndef GST_SPIDAR_C_API_H
 #define GST_SPIDAR_C_API_H
 
@@ -21,12 +21,12 @@
 extern "C" {
 #endif
 
-/*! What kind of error a call has met. */
+/*! The kind of an error. */
 typedef enum {
   GST_SPIDAR_OK = 0,             /*!< none */
   GST_SPIDAR_ERROR_ARGUMENT = 1, /*!< an argument is wrong; nothing has changed */
   GST_SPIDAR_ERROR_FAILED = 2,   /*!< all else, such as a device that cannot be opened */
-  GST_SPIDAR_ERROR_LOST = 3      /*!< the device takes no wrench at present; try again later */
+  GST_SPIDAR_ERROR_LOST = 3      /*!< the device accepts no wrench at present; try again later */
 } GstSpidarErrorKind;
 
 /*! An error. The caller owns it; there is nothing to free. */
@@ -68,7 +68,7 @@ typedef struct {
 typedef enum {
   GST_SPIDAR_OPENING = 0, /*!< the strings are being tightened, which takes 0.2 s */
   GST_SPIDAR_RUNNING = 1, /*!< wrenches are felt */
-  GST_SPIDAR_IDLE = 2,    /*!< nothing was to be felt for minutes: motors off; a wrench wakes it */
+  GST_SPIDAR_IDLE = 2,    /*!< no force was wanted for minutes: motors off; a wrench wakes it */
   GST_SPIDAR_LOST = 3     /*!< does not answer; opened again as soon as it does (docs/api.md) */
 } GstSpidarState;
 
@@ -78,8 +78,8 @@ typedef struct {
   bool force_y;   /*!< upwards and downwards */
   bool force_z;   /*!< towards the viewer and away */
   bool torque;    /*!< about all three axes */
-  bool direction; /*!< false for a gamepad that only rumbles: it renders the size of a force */
-  double largest_force_N;   /*!< largest limit that gst_spidar_device_set_limits() takes, N */
+  bool direction; /*!< false for a gamepad that only rumbles: only the magnitude is rendered */
+  double largest_force_N;   /*!< largest limit that gst_spidar_device_set_limits() accepts, N */
   double largest_torque_Nm; /*!< the same for torques, N m; of little use without `torque` */
   /*! Largest stiffness of a wall that was measured to be stable in a hand, N/m. */
   double largest_stiffness_N_m;
@@ -87,7 +87,7 @@ typedef struct {
   /*! Width, height and depth of the box around the centre that the grip is to stay in, m, and that
    * a stick covers; 0 where its position is not measured. */
   GstSpidarVector3 workspace_m;
-  int buttons; /*!< how many gst_spidar_device_buttons() tells, at most 32 */
+  int buttons; /*!< how many gst_spidar_device_buttons() reports, at most 32 */
 } GstSpidarCapabilities;
 
 /*! A grey picture: `height` rows of `width` bytes, 0 black and 255 white. The memory is the
@@ -99,7 +99,7 @@ typedef struct {
   ptrdiff_t stride;    /*!< bytes from one row to the next, at least `width` */
 } GstSpidarPicture;
 
-/*! A relief that the grip touches from the front. The values that suit most are in brackets. */
+/*! A relief that the grip touches from the front. Usual values are in brackets. */
 typedef struct {
   /*! How near each position is: 255 is nearest. The picture covers the width and height of the
    * workspace. */
@@ -107,7 +107,7 @@ typedef struct {
   double relief_m; /*!< from 0 to 255, m, at most 0.03 [0.008]; its middle is the workspace's */
   double stiffness_N_m; /*!< N/m, above 0, at most that of the capabilities [200] */
   double friction;      /*!< coefficient of static friction [0.3]; 0.8 of it is the kinetic one */
-  double texture;       /*!< how strongly the finest detail is felt as force to the side [0] */
+  double texture;       /*!< how strongly the finest detail becomes a lateral force [0] */
 } GstSpidarSurface;
 
 /*! Where the grip is in a tick, and how it moves. */
@@ -127,9 +127,9 @@ typedef enum {
   GST_SPIDAR_ANY = 1 /*!< no bound but the limits of every wrench */
 } GstSpidarEnergy;
 
-/*! An open device: gst_spidar::Device. All functions are for any thread: the library makes the
- * calls that change something one after another. Only closing is not: nothing else may run on the
- * device then.
+/*! An open device: gst_spidar::Device. All functions may be called in any thread: the library runs
+ * the calls that change something one after another. Only gst_spidar_device_close() must not run at
+ * the same time as another call.
  *
  * Within a callback, of this device or another, these fail with GST_SPIDAR_ERROR_FAILED, because
  * they might wait: push, set_callback, set_limits, set_surface; wait_until_running returns false.
@@ -141,7 +141,7 @@ typedef struct GstSpidarDevice GstSpidarDevice;
 /*! Opens the device called `name`: "sim" is the simulated SPIDAR, "usb" a board on USB, "ff" a
  * force-feedback joystick, and gst_spidar_list_devices() finds more. `profile` is its geometry and
  * motors: a name of gst_spidar_list_profiles(), the path of a .toml file, or NULL or empty for a
- * device that needs none: a simulated one, or one without strings. NULL when that fails. */
+ * device that needs none: a simulated one, or one without strings. Returns NULL on failure. */
 GST_SPIDAR_API GstSpidarDevice* gst_spidar_device_open(const char* name, const char* profile,
                                                        GstSpidarError* error);
 
@@ -149,47 +149,47 @@ GST_SPIDAR_API GstSpidarDevice* gst_spidar_device_open(const char* name, const c
  * the callback has ended. NULL does nothing. Not to be called within a callback. */
 GST_SPIDAR_API void gst_spidar_device_close(GstSpidarDevice* device);
 
-/*! The wrench that is wanted from now on, for 100 ms or until the next call: call it again before
- * that, at any rate up to 1 kHz, or the device ramps to rest. False with GST_SPIDAR_ERROR_LOST when
- * the device takes no wrench at present, and with GST_SPIDAR_ERROR_ARGUMENT when a number is not
+/*! Sets the wanted wrench for 100 ms or until the next call. Call it again before that, at any rate
+ * up to 1 kHz, or the device ramps to rest. Returns false with GST_SPIDAR_ERROR_LOST when the
+ * device accepts no wrench at present, and with GST_SPIDAR_ERROR_ARGUMENT when a number is not
  * finite. */
 GST_SPIDAR_API bool gst_spidar_device_push(GstSpidarDevice* device, const GstSpidarWrench* wrench,
                                            GstSpidarError* error);
 
-/*! Forgets all wrenches: the device ramps to rest, which takes 40 ms. */
+/*! Discards all wrenches: the device ramps to rest, which takes 40 ms. */
 GST_SPIDAR_API void gst_spidar_device_rest(GstSpidarDevice* device);
 
-/*! Computes the wrench of a tick, within that tick. `wrench` is zero at first. False ends the
- * calls: gst_spidar_device_callback_error() then says so. It must not throw. */
+/*! Computes the wrench of a tick, within that tick. `wrench` is initially zero. Returning false
+ * ends the calls, and gst_spidar_device_callback_error() then says so. Must not throw. */
 typedef bool (*GstSpidarCallback)(const GstSpidarGripState* grip, GstSpidarWrench* wrench,
                                   void* user_data);
 
 /*! Calls `callback` once a millisecond in the thread that drives the device, whenever the pose is
- * known, and adds its wrench to what is pushed. It must return within 0.5 ms, and neither allocate,
- * lock nor wait. A wrench that is not finite counts as none. A callback that returns false, or
- * returns late twenty times in a row, is not called again; NULL ends the calls. When this returns,
- * the previous callback has ended. False when that fails: the previous callback remains. */
+ * known, and adds its wrench to the pushed one. The callback must return within 0.5 ms, and neither
+ * allocate, lock nor wait. A wrench that is not finite counts as none. A callback that returns
+ * false, or is late twenty times in a row, is not called again; NULL removes it. When this returns,
+ * the previous callback has ended. Returns false if that fails; the previous callback remains. */
 GST_SPIDAR_API bool gst_spidar_device_set_callback(GstSpidarDevice* device,
                                                    GstSpidarCallback callback, void* user_data,
                                                    GstSpidarEnergy energy, GstSpidarError* error);
 
-/*! Why the callback is not called any more, in `text` of `size` bytes, as snprintf() writes it:
- * shortened when it does not fit, and nothing when `size` is 0. Returns its length in bytes, 0
+/*! Writes why the callback is no longer called to `text` of `size` bytes, as snprintf() does:
+ * shortened when it does not fit, and nothing when `size` is 0. Returns the full length in bytes; 0
  * while the callback is called and when there is none. */
 GST_SPIDAR_API size_t gst_spidar_device_callback_error(const GstSpidarDevice* device, char* text,
                                                        size_t size);
 
-/*! Limits the total force (3 N at first) and the total torque (0.1 N m at first) of whatever is
- * pushed. False with GST_SPIDAR_ERROR_ARGUMENT for what the device cannot take; the message says
- * how much it can. */
+/*! Limits the total force (3 N at first) and the total torque (0.1 N m at first) of everything that
+ * is pushed. Returns false with GST_SPIDAR_ERROR_ARGUMENT for limits that the device does not
+ * accept; the message states the largest ones. */
 GST_SPIDAR_API bool gst_spidar_device_set_limits(GstSpidarDevice* device, double max_force_N,
                                                  double max_torque_Nm, GstSpidarError* error);
 
-/*! Lets the grip touch a surface, until another one or gst_spidar_device_clear_surface(). Its force
- * is added to what is pushed, and yields no energy, except that a surface that appears in front of
- * the grip lifts it, by 40 mm/s at most. The picture is not needed afterwards. False with
- * GST_SPIDAR_ERROR_LOST when the device takes no surface at present, and with
- * GST_SPIDAR_ERROR_ARGUMENT when a setting is out of range, or the device takes no force towards
+/*! Lets the grip touch a surface, until the next call or gst_spidar_device_clear_surface(). The
+ * surface's force is added to the pushed one, and yields no energy, except that a surface that
+ * appears in front of the grip lifts it, by 40 mm/s at most. The picture is not needed afterwards.
+ * Returns false with GST_SPIDAR_ERROR_LOST when the device accepts no surface at present, and with
+ * GST_SPIDAR_ERROR_ARGUMENT when a setting is out of range, or the device exerts no force towards
  * the viewer. */
 GST_SPIDAR_API bool gst_spidar_device_set_surface(GstSpidarDevice* device,
                                                   const GstSpidarSurface* surface,
@@ -198,33 +198,33 @@ GST_SPIDAR_API bool gst_spidar_device_set_surface(GstSpidarDevice* device,
 /*! Removes the surface: nothing is touched any more. */
 GST_SPIDAR_API void gst_spidar_device_clear_surface(GstSpidarDevice* device);
 
-/*! Where the grip is. False, and `pose` is left as it is, while that is not known. */
+/*! Gets the pose of the grip. Returns false and leaves `pose` unchanged while it is unknown. */
 GST_SPIDAR_API bool gst_spidar_device_pose(const GstSpidarDevice* device, GstSpidarPose* pose);
 
-/*! How fast the grip moves, m/s, about 3 ms ago. False, and `velocity_m_s` is left as it is, while
- * the pose is not known. */
+/*! Gets the velocity of the grip about 3 ms ago, m/s. Returns false and leaves `velocity_m_s`
+ * unchanged while the pose is unknown. */
 GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
                                                GstSpidarVector3* velocity_m_s);
 
-/*! The buttons that are pressed: the lowest bit is the first button, in the order of the kernel's
- * joystick driver. None for a device without buttons, or while it is lost. */
+/*! Returns the pressed buttons: the lowest bit is the first button, in the order of the kernel's
+ * joystick driver. Returns 0 for a device without buttons, and while the device is lost. */
 GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device);
 
 /*! False while the force fades, rests or returns because nobody seems to hold the grip. */
 GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
 
-/*! Fraction of the wanted wrench that may be exerted, 1 unless the force has shaken the hand for
- * long. */
+/*! Returns the fraction of the wanted wrench that may be exerted: 1 unless the force has shaken the
+ * hand for long. */
 GST_SPIDAR_API double gst_spidar_device_vibration_fraction(const GstSpidarDevice* device);
 
-/*! The wrench that is commanded to the grip at present, after all limits: Device::felt(). */
+/*! Gets the wrench that is commanded at present, after all limits: Device::felt(). */
 GST_SPIDAR_API void gst_spidar_device_felt(const GstSpidarDevice* device, GstSpidarWrench* wrench);
 
 /*! What the device is doing. */
 GST_SPIDAR_API GstSpidarState gst_spidar_device_state(const GstSpidarDevice* device);
 
 /*! Waits until the state is GST_SPIDAR_RUNNING and the pose is known, for at most `timeout_ms`.
- * False when that is over. */
+ * Returns false when that time is over. */
 GST_SPIDAR_API bool gst_spidar_device_wait_until_running(const GstSpidarDevice* device,
                                                          int64_t timeout_ms);
 
@@ -233,7 +233,7 @@ GST_SPIDAR_API bool gst_spidar_device_wait_until_running(const GstSpidarDevice* 
 GST_SPIDAR_API size_t gst_spidar_device_last_fault(const GstSpidarDevice* device, char* text,
                                                    size_t size);
 
-/*! What is not as it should be although the device works, written as
+/*! A warning about a device that works, but not as it should, written as
  * gst_spidar_device_callback_error() does; length 0 if all is well: Device::warning(). */
 GST_SPIDAR_API size_t gst_spidar_device_warning(const GstSpidarDevice* device, char* text,
                                                 size_t size);
@@ -242,11 +242,11 @@ GST_SPIDAR_API size_t gst_spidar_device_warning(const GstSpidarDevice* device, c
 GST_SPIDAR_API void gst_spidar_device_capabilities(const GstSpidarDevice* device,
                                                    GstSpidarCapabilities* capabilities);
 
-/*! What was opened, for people, for example "sim". Valid while the device is open. */
+/*! The name of the open device, for people, for example "sim". Valid while the device is open. */
 GST_SPIDAR_API const char* gst_spidar_device_name(const GstSpidarDevice* device);
 
-/*! Names for gst_spidar_device_open(): what is plugged in, then the simulated ones. Opens nothing.
- * After the last name comes NULL; free it with gst_spidar_free_list(). NULL when that fails. */
+/*! Names for gst_spidar_device_open(): devices plugged in, then simulated ones. Opens nothing.
+ * NULL follows the last name; free it with gst_spidar_free_list(). Returns NULL on failure. */
 GST_SPIDAR_API char** gst_spidar_list_devices(GstSpidarError* error);
 
 /*! Names of the profiles that gst_spidar_device_open() knows, sorted, in the same form. */
@@ -270,7 +270,7 @@ typedef enum {
   GST_SPIDAR_OBJECTS = 3 /*!< of all objects, weighted by area and nearness to the pointer */
 } GstSpidarFeltMotion;
 
-/*! What is felt, and how strongly. The values at first are in brackets. */
+/*! What is felt, and how strongly. The initial values are in brackets. */
 typedef struct {
   GstSpidarController controller; /*!< [GST_SPIDAR_NONLINEAR] */
   GstSpidarFeltMotion motion;     /*!< [GST_SPIDAR_OBJECT] */
@@ -298,32 +298,32 @@ typedef struct {
   bool has_picture_before; /*!< false: nothing to compare with, and everything above is zero */
 } GstSpidarMotionResult;
 
-/*! Measures the motion of a picture and says what is to be felt of it: gst_spidar::MotionToWrench.
- * All functions are for any thread; only freeing is not. After fork(), the child must make an
- * object of its own: functions on a copy fail. */
+/*! Measures the motion of pictures and computes the wrench: gst_spidar::MotionToWrench. All
+ * functions may be called in any thread; only gst_spidar_motion_free() must not run during another
+ * call. After fork(), the child must make its own object: functions on a copy fail. */
 typedef struct GstSpidarMotion GstSpidarMotion;
 
-/*! The settings that a motion has at first, to change some of them. */
+/*! Gets the initial settings of a motion, so that a program can change some of them. */
 GST_SPIDAR_API void gst_spidar_motion_settings_init(GstSpidarMotionSettings* settings);
 
-/*! Makes an object with the settings that gst_spidar_motion_settings_init() gives. NULL when memory
+/*! Makes an object with the settings of gst_spidar_motion_settings_init(). Returns NULL when memory
  * is short. */
 GST_SPIDAR_API GstSpidarMotion* gst_spidar_motion_new(GstSpidarError* error);
 
 /*! Frees the object. NULL does nothing. */
 GST_SPIDAR_API void gst_spidar_motion_free(GstSpidarMotion* motion);
 
-/*! Analyses the next picture, shown at `time_ns` on a clock of the caller's. A time that is not
- * after the previous one, and a cut, start anew: the wrench is zero. False for a picture without
- * data, smaller than 16 × 16, or with rows that overlap; `result` is then left as it is. */
+/*! Analyses the next picture, shown at `time_ns` on a clock of the caller's. A cut, or a time
+ * that is not after the previous one, restarts the analysis with a wrench of zero. Returns false
+ * and leaves `result` unchanged if the picture has no data, is below 16 × 16, or rows overlap. */
 GST_SPIDAR_API bool gst_spidar_motion_analyze(GstSpidarMotion* motion,
                                               const GstSpidarPicture* picture, int64_t time_ns,
                                               GstSpidarMotionResult* result, GstSpidarError* error);
 
-/*! To be called after a seek: the next picture has nothing to do with the previous one. */
+/*! Call this after a seek: the next picture has nothing to do with the previous one. */
 GST_SPIDAR_API void gst_spidar_motion_reset(GstSpidarMotion* motion);
 
-/*! Changes the settings from the next picture on. False, and nothing has changed, when one of the
+/*! Changes the settings from the next picture on. Returns false and changes nothing when one of the
  * settings is out of range. */
 GST_SPIDAR_API bool gst_spidar_motion_configure(GstSpidarMotion* motion,
                                                 const GstSpidarMotionSettings* settings,

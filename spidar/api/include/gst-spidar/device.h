@@ -91,8 +91,7 @@ enum class Energy {
 /// spidar-guardian, sets the motors of a real board to zero if this process dies.
 ///
 /// Every function may be called in any thread: the library runs the calls that change something one
-/// after another. Only moving and destroying the object need it for themselves: no other call may
-/// run meanwhile.
+/// after another. While the object is being moved or destroyed, no other call may run.
 ///
 /// Within a callback of any device, push(), set_callback(), set_limits(), set_surface() and
 /// wait_until_running() throw std::logic_error, because they might wait.
@@ -125,7 +124,7 @@ class GST_SPIDAR_API Device {
   /// over, at any rate up to 1 kHz, or the device ramps to rest. A wrench fades in and out within
   /// 40 ms at most, and the limits of its rate of change apply.
   ///
-  /// Returns false when the device takes no wrench at present because the device is lost. Throws
+  /// Returns false when the device accepts no wrench at present because it is lost. Throws
   /// std::invalid_argument when a number is not finite.
   bool push(const Wrench& wrench);
 
@@ -162,7 +161,7 @@ class GST_SPIDAR_API Device {
   /// (docs/touch.md); only a surface that appears in front of the grip lifts the grip, by 40 mm/s
   /// at most. `surface.picture` is not needed afterwards.
   ///
-  /// Returns false when the device takes no surface at present because the device is lost. Throws
+  /// Returns false when the device accepts no surface at present because it is lost. Throws
   /// std::invalid_argument when a setting is out of range, for a picture that
   /// MotionToWrench::analyze() would refuse, and for a device that takes no force towards the
   /// viewer.
@@ -209,9 +208,9 @@ class GST_SPIDAR_API Device {
   /// there has been none. While the state is kLost, this fault is the reason.
   std::string last_fault() const;
 
-  /// What is not as it should be although the device works, for people; empty if all is well. For
-  /// example, the library does not know how much this user's hand was shaken today, and therefore
-  /// counts half of what is allowed as used.
+  /// A warning about a device that works, but not as it should, for people; empty if all is well.
+  /// For example, the library does not know how much this user's hand was shaken today, and counts
+  /// half of the permitted vibration as used.
   std::string warning() const;
 
   /// What the device can do.

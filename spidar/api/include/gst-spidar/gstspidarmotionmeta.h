@@ -54,7 +54,7 @@ typedef struct {
 /*! Reads the motion of the frame in `buffer` into `motion`.
  *
  * Returns FALSE if the buffer has no such meta, because it was not analysed or attach-meta is not
- * set, or if the meta lacks a field; `motion` is then not to be used. */
+ * set, or if the meta lacks a field; `motion` must then not be used. */
 static inline gboolean gst_buffer_get_spidar_motion(GstBuffer* buffer,
                                                     GstSpidarFrameMotion* motion) {
   GstCustomMeta* meta = gst_buffer_get_custom_meta(buffer, GST_SPIDAR_MOTION_META_NAME);

@@ -36,12 +36,12 @@ typedef struct {
   gdouble screen_velocity_y; /*!< Velocity on the screen, downwards, px/s. */
   gdouble growth;            /*!< Relative change of lengths, 1/s; positive when it comes nearer. */
   gdouble roll;              /*!< Rotation, rad/s; positive is clockwise as seen. */
-  gboolean felt;             /*!< It is the one object that is felt. */
+  gboolean felt;             /*!< Whether this object is the felt one. */
 } GstSpidarObject;
 
 /*! Returns the objects of a frame, an array of GstSpidarObject, which the caller frees with
  * g_array_unref(); empty if there are none, or if the frame was not analysed
- * (gst_buffer_get_spidar_motion() tells). */
+ * (gst_buffer_get_spidar_motion() then returns FALSE). */
 static inline GArray* gst_buffer_get_spidar_objects(GstBuffer* buffer) {
   GArray* objects = g_array_new(FALSE, FALSE, sizeof(GstSpidarObject));
   const GQuark type = g_quark_from_static_string(GST_SPIDAR_OBJECT_TYPE);

@@ -24,10 +24,10 @@ enum class Controller {
 
 /// Which motion is felt: the element's property `motion`.
 enum class FeltMotion {
-  kMean,     ///< of all points
-  kObject,   ///< of the dominant object against the background
-  kCamera,   ///< of the camera
-  kObjects,  ///< of all objects, weighted by area and nearness to the pointer
+  kMean,     ///< the mean motion of all points
+  kObject,   ///< the motion of the dominant object against the background
+  kCamera,   ///< the motion of the camera
+  kObjects,  ///< the motions of all objects, weighted by area and nearness to the pointer
 };
 
 /// What is felt, and how strongly. The defaults are those of the GStreamer element.
@@ -54,7 +54,7 @@ struct MotionSettings {
 /// What was found in one picture.
 struct MotionResult {
   Wrench wrench;               ///< wanted, before the limits of a device; zero after a cut
-  double velocity_x_px_s = 0;  ///< of the motion that is felt, to the right
+  double velocity_x_px_s = 0;  ///< velocity of the felt motion, to the right
   double velocity_y_px_s = 0;  ///< downwards
   double growth_1_s = 0;       ///< relative change of lengths a second; positive comes nearer
   double roll_rad_s = 0;       ///< clockwise as seen
@@ -64,8 +64,8 @@ struct MotionResult {
 
 /// Measures the motion of a picture and computes the wrench, with the defaults of the GStreamer
 /// element. Every function may be called in any thread: the library runs one call after another.
-/// Only moving and destroying the object need it for themselves. After fork(), the child must make
-/// an object of its own: analyze() and configure() of the copy throw std::runtime_error.
+/// While the object is being moved or destroyed, no other call may run. After fork(), the child
+/// must make its own object: analyze() and configure() of the copy throw std::runtime_error.
 class GST_SPIDAR_API MotionToWrench {
  public:
   /// Starts with the defaults of MotionSettings.

@@ -33,7 +33,7 @@ struct Wrench {
 
 /// Where the grip is.
 struct Pose {
-  Vector3 position_m;      ///< of the grip's origin, metres from the centre of the workspace
+  Vector3 position_m;      ///< the grip's origin, metres from the centre of the workspace
   Quaternion orientation;  ///< turns vectors of the grip's frame into the device's frame
 };
 
