@@ -111,7 +111,7 @@ TEST(ProfileWriter, AMomentOfInertiaIsWrittenWhenItIsStated) {
   const Folder folder;
   const std::string path = folder.file("copy.toml");
   Profile profile = load_profile("spidar-gcc");
-  EXPECT_EQ(profile_text(profile).find("moment_of_inertia_kg_m2"), std::string::npos);
+  EXPECT_EQ(profile_text(profile).find("moment_of_inertia_kg_m2 ="), std::string::npos);
   // A solid sphere of 34 g and 32 mm, and 300 g at the 32.5 mm at which the strings end.
   EXPECT_NEAR(profile.body().least_kg_m2, 0.4 * 0.034 * 0.032 * 0.032, 1e-12);
   EXPECT_NEAR(profile.body().most_kg_m2, 0.3 * 0.0325 * 0.0325, 1e-12);
