@@ -15,15 +15,15 @@ namespace {
 
 using namespace brake;
 
-/// The cosine of such an error of the direction is 0.88.
+/// The rotation up to which a wrench keeps its full size: the cosine of the error is 0.88.
 constexpr double kAimed_rad = 0.5;
 
-/// The fraction of a force that the band leaves at `speed_m_s`.
+/// The fraction of a force that remains at `speed_m_s` in the band.
 double left_at(double speed_m_s, const FadeBand& band) {
   return std::clamp((band.to_m_s - speed_m_s) / (band.to_m_s - band.from_m_s), 0.0, 1.0);
 }
 
-/// Reduces the component of `vector` along `velocity` to the fraction that the speed leaves. The
+/// Reduces the component of `vector` along `velocity` to the fraction that the band leaves. The
 /// speed of a rotation is that of the end of an arm of `arm_m`; for a displacement, `arm_m` is 1.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity, double arm_m,
                       const FadeBand& band) {
@@ -34,8 +34,8 @@ Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& velo
   return vector - (1 - left) * std::max(0.0, vector.dot(direction)) * direction;
 }
 
-/// The force or torque that damps the part of `velocity` above the band, where `velocity` is as in
-/// faded(), and `damping` is in N s/m or N m s/rad.
+/// The force or torque that damps the part of `velocity` above the lower speed of the band. The
+/// speed is as in faded(), and `damping` is in N s/m or N m s/rad.
 Eigen::Vector3d damped(const Eigen::Vector3d& velocity, double arm_m, const FadeBand& band,
                        double damping) {
   const double speed_m_s = arm_m * velocity.norm();
@@ -44,14 +44,14 @@ Eigen::Vector3d damped(const Eigen::Vector3d& velocity, double arm_m, const Fade
   return -damping * above_m_s / speed_m_s * velocity;
 }
 
-/// The rest of a wrench until which acts the grip rotates by `turn_rad`. Strings that are pulled
-/// for another pose exert another wrench: they accelerated a grip at 300 rad/s instead of braking
-/// it.
+/// The fraction of a wrench to exert if the grip rotates by `turn_rad` before the wrench acts.
+/// Tensions for one pose exert another wrench at the next: they accelerated a grip at 300 rad/s
+/// instead of braking it.
 double aimed_at(double turn_rad) {
   return std::clamp(2 - turn_rad / kAimed_rad, 0.0, 1.0);
 }
 
-/// `vector`, whose component along `velocity` is limited to that of `most`.
+/// Limits the component of `vector` along `velocity` to the component of `most`.
 Eigen::Vector3d without_excess(const Eigen::Vector3d& vector, const Eigen::Vector3d& most,
                                const Eigen::Vector3d& velocity) {
   const double excess = (vector - most).dot(velocity);
@@ -71,7 +71,7 @@ void GripBrake::reset() noexcept {
 }
 
 void GripBrake::pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept {
-  // The previous command acts until now.
+  // The previous command has acted until now.
   acting_N_ += fraction_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
   unheld_.pull(acting_N_, dt_s);
   strings_N_ = strings.force_N;
@@ -115,15 +115,15 @@ void GripBrake::rest_or_return(const GripMotion& motion, double dt_s) noexcept {
   fraction_ = std::clamp(fraction_ + step, 0.0, 1.0);
 }
 
-/// A released grip counts as held until it has moved far enough to show its release, but the energy
-/// that it may have does not wait for that.
+/// Whether a hand withstands the force. A released grip counts as held until its motion shows the
+/// release; its possible energy must count before that, so a fast grip counts as not withstanding.
 bool GripBrake::withstands_at(double speed_m_s) const noexcept {
   return yield_.is_withstood() && speed_m_s <= kHeavyFrom_m_s;
 }
 
-/// 0 … 1: how far the speeds of the FadeBand are those of a heavy grip. They are lower for a grip
-/// that is heavy or in a hand, to which the strings have given more energy than a light one has at
-/// these speeds; and for one in a hand that swings back after a film has pushed it aside.
+/// The weight of the lower FadeBand, that of a heavy grip, 0 … 1. It rises with the energy that
+/// the strings have given to the grip, which exceeds that of a light grip at these speeds if the
+/// grip is heavy or in a hand, and with the energy of a hand that swings back after a film's push.
 double GripBrake::heaviness() const noexcept {
   const double of_work = (work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J);
   const double of_swing = (yield_.swung_J() - kLightSwing_J) / (kHeavySwing_J - kLightSwing_J);
@@ -131,9 +131,9 @@ double GripBrake::heaviness() const noexcept {
 }
 
 /// The mass that is damped: twice the energy that the strings have given, divided by the square of
-/// the speed. The mass is zero while they have given less than the lightest grip has at this speed:
-/// a hand then moves the grip, and must not feel the damper; or a loose hand throws it, which
-/// returns stored energy, but does not hold the grip.
+/// the speed. If the strings have given less than the lightest grip has at this speed, a hand moves
+/// the grip and must not feel the damper, so the mass is zero; except for a grip that is not held,
+/// or has stored energy, which a loose hand returns without holding the grip.
 double GripBrake::damped_kg(double speed_m_s) const noexcept {
   const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
                                     kLightestGrip_kg, kHeaviestGrip_kg);
@@ -145,10 +145,10 @@ double GripBrake::damped_kg(double speed_m_s) const noexcept {
 
 /// For a grip that has stored energy, the speeds are lower by kEarlier_m_s, because that energy
 /// adds to the work of a reversed force. The largest energy of the rotation is subtracted from
-/// kReleased_J, and the speeds are lower accordingly. So is, until a hand has withstood a force,
-/// and above kHeavyFrom_m_s, the energy that the strings at rest have stored: otherwise a film
-/// would push a heavy grip to where no string can brake it, and the strings at rest would throw it
-/// back.
+/// kReleased_J, and the speeds are lower accordingly. The energy that the strings at rest have
+/// stored is also subtracted until a hand has withstood a force, and always above kHeavyFrom_m_s.
+/// Otherwise a film would push a heavy grip to where no string can brake it, and the strings at
+/// rest would throw it back.
 FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double heavy = heaviness(), earlier_m_s = yield_.stores_energy() ? kEarlier_m_s : 0;
   const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s) - earlier_m_s;
@@ -168,7 +168,7 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   const double arm_m = body_.surface_m;
   damper_ = {damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
              damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
-  // The strings cannot exert both: the linear damper lacks the tension of a torque.
+  // The strings cannot exert both: a torque takes tension that the linear damper needs.
   allowed_ = {faded(fraction_ * wanted.force_N, ahead_.linear_m_s, 1, band_),
               left_at(ahead_.linear_m_s.norm(), band_) *
                   faded(fraction_ * wanted.torque_Nm, ahead_.angular_rad_s, arm_m, band_)};
@@ -182,8 +182,8 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   return allowed_;
 }
 
-/// Reduces a force that points outwards, against the strings at rest: to kProbes_N as the energy
-/// that these have stored rises from kFarOut of kReleased_J to all of it.
+/// Reduces a force against the strings at rest, which points outwards, to kProbes_N as the energy
+/// that these strings have stored rises from kFarOut · kReleased_J to kReleased_J.
 Eigen::Vector3d GripBrake::not_further_out(const Eigen::Vector3d& force_N) const noexcept {
   const double out_N = -force_N.dot(rest_N_);
   if (!(out_N > 0)) return force_N;
@@ -194,7 +194,7 @@ Eigen::Vector3d GripBrake::not_further_out(const Eigen::Vector3d& force_N) const
   return force_N + excess_N / rest_N * rest_N_;
 }
 
-/// The limit for a force along the motion that must not rise: the film's present one, if any.
+/// The limit for a force along the motion that must not rise: the film's present force along it.
 Eigen::Vector3d GripBrake::not_risen_N() const noexcept {
   const Eigen::Vector3d film_N = strings_N_ - rest_N_;
   return film_N.dot(ahead_.linear_m_s) > 0 ? film_N : Eigen::Vector3d(Eigen::Vector3d::Zero());

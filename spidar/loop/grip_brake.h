@@ -12,13 +12,13 @@
 
 namespace spidar {
 
-/// Where a force along the motion fades out, and the damping above the lower of these speeds.
+/// The speeds between which a force along the motion fades out, and the damping above `from_m_s`.
 struct FadeBand {
   double from_m_s = 0, to_m_s = 0;
   double damping_N_s_m = 0;
 };
 
-/// Measures against a force that accelerates a released grip:
+/// Reduces a wrench that would accelerate a released grip:
 ///
 /// - A force along the velocity fades out between the speeds of a FadeBand, and a torque with the
 ///   speed of the strings' ends. The whole torque also fades out with the speed of the grip,
@@ -46,26 +46,26 @@ class GripBrake {
   /// Clears the motion, because the pose is unknown or the device was opened. A released grip stays
   /// released until kRest_s after its pose is known again.
   void reset() noexcept;
-  /// Tells that nobody holds the grip.
+  /// Puts the wrench to rest for kRest_s, because nobody holds the grip.
   void release() noexcept { resting_s_ = brake::kRest_s; }
 
   // Call these in each tick, in this order:
 
-  /// Returns what the brake leaves of the wanted wrench.
+  /// Returns the wanted wrench, reduced by the brake.
   Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
   bool acts() const noexcept;
-  /// Returns what the brake leaves of `slewed`, which follows the result of the last apply() at the
-  /// slew limit: along the motion, no more than that result. If not `fresh`, `slewed` is ramping to
-  /// zero, and all of it fades.
+  /// Reduces `slewed`, which follows the result of the last apply() at the slew limit, to no more
+  /// than that result along the motion. If not `fresh`, `slewed` is ramping to zero, and all of it
+  /// fades.
   Wrench cut(const Wrench& slewed, bool fresh) const noexcept;
   /// The wrench that slows the grip down, to add to the result of cut().
   const Wrench& damper() const noexcept { return damper_; }
-  /// Takes position and motion after an exchange, `dt_s` after the last call, and the energy that
-  /// the strings at rest have stored there.
+  /// Updates the brake with the position and motion after an exchange, `dt_s` after the last call,
+  /// and with the energy that the strings at rest have stored at that position.
   void update(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
               double dt_s) noexcept;
-  /// Takes the wrench that the strings exert until the next exchange, and the part of it that they
-  /// exert at rest.
+  /// Updates the brake with the wrench that the strings exert until the next exchange, and with the
+  /// part of it that they exert at rest.
   void pull(const Wrench& strings, const Wrench& at_rest, double dt_s) noexcept;
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
@@ -93,13 +93,13 @@ class GripBrake {
   // The grip.
   brake::UnheldMotion unheld_;
   brake::GripYield yield_;
-  double spun_s_ = 0;  ///< for how long it has rotated faster than a hand
-  // Of the last apply().
+  double spun_s_ = 0;  ///< how long the grip has rotated faster than a hand can
+  // Results of the last apply().
   GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
   FadeBand band_;
   Wrench allowed_;
   Wrench damper_;
-  double fraction_ = 1;   ///< of the wanted wrench that passes
+  double fraction_ = 1;   ///< the fraction of the wanted wrench that passes
   double resting_s_ = 0;  ///< time until the wrench begins to return
 };
 

@@ -14,17 +14,17 @@ namespace spidar::brake {
 /// Distinguishes a hand that withstands a force from a grip that yields. Compares the displacement
 /// of the grip with the force on it, both smoothed, since begin().
 ///
-/// A grip that yields further than a hand lets it follows the force so slowly that its speed does
-/// not show it, and stores energy in whatever holds it: at 3 N and 36 N/m 125 mJ, which throw 50 g
-/// at 2 m/s when a film reverses its force. Where the strings at rest balance the force, these
-/// store it.
+/// A grip that yields further than a hand would allow follows the force too slowly for its speed to
+/// show, and stores energy in whatever holds it: 125 mJ at 3 N and 36 N/m, which throw 50 g at
+/// 2 m/s when a film reverses its force. Where the strings at rest balance the force, they store
+/// the energy.
 class GripYield {
  public:
-  /// Begins anew, with the grip at the position of the next update().
+  /// Restarts the comparison at the position of the next update().
   void begin() noexcept { has_begun_ = is_balanced_ = false; }
 
-  /// Takes position and velocity of the grip, `dt_s` after the last call; the force of the strings,
-  /// and the part `rest_N` of it that they exert at rest. `is_whole` says that the brake withholds
+  /// Adds the position and velocity of the grip, `dt_s` after the last call, the force of the
+  /// strings, and its part `rest_N` that they exert at rest. `is_whole`: the brake withholds
   /// nothing.
   void update(const Eigen::Vector3d& position_m, const Eigen::Vector3d& velocity_m_s,
               const Eigen::Vector3d& strings_N, const Eigen::Vector3d& rest_N, bool is_whole,
@@ -45,7 +45,7 @@ class GripYield {
     count_withstood(dt_s);
   }
 
-  /// Whether a hand has proved itself: it has withstood the film for kWithstands_s.
+  /// Whether a hand holds the grip: it has withstood the film for kWithstands_s.
   bool is_withstood() const noexcept { return withstood_s_ >= kWithstands_s; }
 
   /// Whether the grip has yielded, as no held grip does. While the whole wrench passes, only a grip
@@ -62,7 +62,7 @@ class GripYield {
   bool is_balanced() const noexcept { return is_balanced_; }
   /// Whether the grip may have stored energy that returns with the film's next force.
   bool stores_energy() const noexcept { return stores_s_ > 0; }
-  /// The energy that a hand that yielded to the film returns, fading.
+  /// The energy that a hand may return after yielding to the film; decays over time.
   double swung_J() const noexcept { return swung_J_; }
 
  private:
@@ -71,14 +71,14 @@ class GripYield {
     has_begun_ = true;
     from_m_ = position_m;
   }
-  /// Counts the film's force, because the total is zero where the strings at rest balance it.
+  /// Uses the film's force: the total force is zero where the strings at rest balance the film.
   void count_withstood(double dt_s) noexcept {
     const double force_N = film_N_.norm();
     if (force_N < kFirmForce_N) return;
     const bool is_firm = kFirmHand_N_m * film_N_.dot(gone_m_) < force_N * force_N;
     withstood_s_ = is_firm ? withstood_s_ + dt_s : 0;
   }
-  /// Whether a grip that has moved by `moved_m` has followed the force further than a hand lets it.
+  /// Whether a grip that moved by `moved_m` has followed the force further than a hand would allow.
   bool is_loose(const Eigen::Vector3d& moved_m) const noexcept {
     const double force_N = pulled_N_.norm();
     if (!(force_N > kTellingForce_N)) return false;
@@ -90,8 +90,8 @@ class GripYield {
   bool has_yielded(bool is_whole) const noexcept {
     return is_loose(gone_m_) && (!is_whole || (!is_withstood() && gone_m_.norm() > kThrown_m));
   }
-  /// The energy in springs depends on the position of the grip: at 0.5 m/s, the smoothed
-  /// displacement lags by 25 mm. The strings add the pull to their rest position to the energy of a
+  /// Takes the unsmoothed displacement, on which the energy of a spring depends: at 0.5 m/s, the
+  /// smoothed one lags by 25 mm. The work against the strings at rest is added to the energy of a
   /// loose hand.
   bool stores_at(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& rest_N) const noexcept {
     if (is_withstood() || !is_loose(moved_m)) return false;
@@ -101,11 +101,11 @@ class GripYield {
 
   bool has_begun_ = false;
   Eigen::Vector3d from_m_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();    ///< from there
-  Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();  ///< by all tensions, …
-  Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();    ///< … by those above the rest's
+  Eigen::Vector3d gone_m_ = Eigen::Vector3d::Zero();    ///< displacement from `from_m_`, smoothed
+  Eigen::Vector3d pulled_N_ = Eigen::Vector3d::Zero();  ///< force of all tensions, smoothed
+  Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();    ///< force above that at rest, smoothed
   double withstood_s_ = 0;  ///< how long a hand has withstood a force, without a break
-  double stores_s_ = 0;     ///< for how long the grip still counts as one that has stored energy
+  double stores_s_ = 0;     ///< how long the grip still counts as one that has stored energy
   double swung_J_ = 0;
   bool is_balanced_ = false;
 };

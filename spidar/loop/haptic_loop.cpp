@@ -167,7 +167,7 @@ void HapticLoop::find_wanted(TickRecord& record) noexcept {
   record.playing =
       clock_.plays_at(record.monotonic_ns) && clock_.rate > 0 && clock_.rate < kMaxRate;
   if (record.playing) record.running_ns = clock_.running_at(record.monotonic_ns);
-  // The device renders a command later by the delay that it reports.
+  // The device renders a command with the lag that it reports.
   const TimelineResult result =
       schedule_.find(record.playing, record.running_ns, grip_->reading().lag_ns);
   counters_.refused_wrenches += schedule_.take_refused();
@@ -232,8 +232,8 @@ bool HapticLoop::is_fresh(const TickRecord& record) const noexcept {
          (limits_.as_set().max_force_N > 0 || limits_.as_set().max_torque_Nm > 0);
 }
 
-/// Without any other force, the strings at rest throw a grip. Whatever the limits are, the damper
-/// may take back the force of the strings.
+/// The strings at rest alone can throw a grip. Whatever the limits are, the damper may therefore
+/// exert as much as they do.
 SafetyLimits HapticLoop::braking_limits() const noexcept {
   SafetyLimits limits = limits_.in_effect();
   const Wrench& at_rest = grip_->reading().at_rest;
@@ -297,7 +297,7 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   if (fault == LinkFault::kNone) {
     acknowledged_power_ = power_;
     exerted_ = grip.delivered;
-    // A device without an answer for longer is lost: then this program was suspended.
+    // A longer interval means that the program was suspended, or the device would be lost.
     const double interval_s = std::min(step.falls_s, kMaxErrors * kTick_s);
     late_s_ +=
         fraction_passed(interval_s, kLateness_s) * (std::max(0.0, interval_s - kTick_s) - late_s_);
@@ -311,9 +311,9 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   if (is_lost(fault) || missing_.is_lost()) lose();
 }
 
-/// Neither a surface nor a passive callback requests a torque: a torque beyond the film's is an
-/// error of the strings. A surface grips as the force begins: the strings do not exert the whole
-/// force yet, but that makes the surface no softer.
+/// Neither a surface nor a passive callback requests a torque, so a torque beyond the film's is an
+/// error of the strings. While the wrench ramps up, the strings exert only a part of the contact
+/// force; that must not make the surface softer, so those ticks do not count for it.
 void HapticLoop::count_energy(const TickRecord& record) noexcept {
   const Eigen::Vector3d turn_rad = GripMotion::turn_rad(at_, grip_->reading().pose);
   at_ = grip_->reading().pose;
@@ -324,20 +324,20 @@ void HapticLoop::count_energy(const TickRecord& record) noexcept {
   if (record.called_back) callback_.deliver(above_rest_, turn_rad);
 }
 
-/// Nobody needs protection from a stick that leaves the hand. However late a tick is, the strings
-/// have pulled for as long.
+/// A grip that cannot fly needs no brake. `passed_s` is not limited as a rising force is: however
+/// late a tick is, the strings have pulled all the time.
 void HapticLoop::follow(double passed_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
-  // A hand does not rotate a grip so far. The force is gone before its strings tangle and its pose
-  // is lost.
+  // No hand rotates a grip this far. The force ends before the strings tangle and the pose is
+  // lost.
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
   brake_.update(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
   brake_.pull(grip.delivered, grip.at_rest, passed_s);
 }
 
-/// The grip may not have received this tick, so the next one starts from the last acknowledged one.
+/// The grip may not have received this command, so the next one starts from the last acknowledged.
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
   limits_.undo();

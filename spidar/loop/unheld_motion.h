@@ -15,13 +15,13 @@ namespace spidar::brake {
 class UnheldMotion {
  public:
   void reset() noexcept { *this = {}; }
-  /// Tells that the strings have exerted `acting_N` for `dt_s`.
+  /// Adds the force `acting_N`, which the strings have exerted for `dt_s`.
   void pull(const Eigen::Vector3d& acting_N, double dt_s) noexcept {
     late_N_ += fraction_passed(dt_s, GripMotion::kLag_s) * (acting_N - late_N_);
     given_m_s_ += dt_s / kUnheldGrip_kg * late_N_;
     given_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
   }
-  /// Takes the velocity of the grip, `dt_s` after the last one.
+  /// Adds the velocity of the grip, `dt_s` after the last call.
   void update(const Eigen::Vector3d& velocity_m_s, double dt_s) noexcept {
     seen_m_s_ += velocity_m_s - last_m_s_;
     seen_m_s_ *= 1 - fraction_passed(dt_s, kMemory_s);
@@ -36,9 +36,9 @@ class UnheldMotion {
   }
 
  private:
-  /// The acting force, as late as the velocity is.
+  /// The acting force, with the lag of the velocity.
   Eigen::Vector3d late_N_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();  ///< by the strings
+  Eigen::Vector3d given_m_s_ = Eigen::Vector3d::Zero();  ///< change computed from the force
   Eigen::Vector3d seen_m_s_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d last_m_s_ = Eigen::Vector3d::Zero();
 };
