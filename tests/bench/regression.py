@@ -15,7 +15,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from pathology_films import MADE_S, RATE, ffmpeg, make_films, x264
+from made_films import MADE_S, RATE, ffmpeg, make_films, x264
 from real_films import Tally, play
 
 
