@@ -23,7 +23,7 @@ std::string Field::column(const char* part) const {
   return text;
 }
 
-void CsvLine::take(const Field& field, const FieldValue& value) {
+void CsvLine::write(const Field& field, const FieldValue& value) {
   if (const auto* const parts = std::get_if<Parts>(&value)) {
     for (const auto& [part, scalar] : *parts) add(field, part, scalar);
   } else {

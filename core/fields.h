@@ -50,19 +50,19 @@ class FieldSink {
 
   void operator()(const char* name, const char* unit, const FieldValue& value,
                   const char* meaning) {
-    take({name, unit, meaning}, value);
+    write({name, unit, meaning}, value);
   }
   /// Adds a row of these outputs only.
   void in(unsigned outputs, const char* name, const char* unit, const FieldValue& value,
           const char* meaning) {
-    if ((outputs & outputs_) != 0) take({name, unit, meaning}, value);
+    if ((outputs & outputs_) != 0) write({name, unit, meaning}, value);
   }
   /// Begins a group of rows that end() closes. Only JSON shows groups.
   virtual void begin(const char* /*group*/) {}
   virtual void end() {}
 
  protected:
-  virtual void take(const Field& field, const FieldValue& value) = 0;
+  virtual void write(const Field& field, const FieldValue& value) = 0;
 
  private:
   const unsigned outputs_;
@@ -77,7 +77,7 @@ class CsvLine : public FieldSink {
       : FieldSink(outputs), of_(of), line_(line), begin_(line.size()) {}
 
  private:
-  void take(const Field& field, const FieldValue& value) override;
+  void write(const Field& field, const FieldValue& value) override;
   void add(const Field& field, const char* part, const Scalar& scalar);
 
   const Of of_;

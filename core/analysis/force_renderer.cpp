@@ -18,7 +18,7 @@ uint32_t felt_object(const Frame& frame, MotionKind kind, const Chosen& choice) 
 
 /// Returns the number by which WrenchFade recognizes what is felt. It differs between rules, even
 /// for the same object, because their gains may differ.
-uint64_t felt_thing(const Chosen& choice, uint32_t object) {
+uint64_t fade_key(const Chosen& choice, uint32_t object) {
   constexpr uint32_t kPicture = UINT32_MAX;
   uint64_t target = object;
   if (!choice.is_kept && choice.rule) {
@@ -166,7 +166,7 @@ void ForceRenderer::render(Frame& frame, const AnalyzerSettings& settings, int64
   const double interval_s = frame.interval_s();
   frame.motion = bound_motion(felt, frame.width(), interval_s);
   // Neither filter nor washout may mix the motions of two objects.
-  if (fade_.turn_to(felt_thing(choice, frame.felt_object))) {
+  if (fade_.set_object(fade_key(choice, frame.felt_object))) {
     filter_.reset();
     washout_.reset();
   }

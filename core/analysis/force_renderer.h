@@ -54,7 +54,7 @@ class WrenchFade {
  public:
   /// Begins a frame. `object` is a constant number for each thing that is felt; 0: nothing, or the
   /// whole picture. Returns whether the last wrench begins to fade out.
-  bool turn_to(uint64_t object);
+  bool set_object(uint64_t object);
 
   /// Returns the wrench to render in this frame, `interval_s` > 0 after the previous one. `wrench`
   /// is that of the object, without a fade.
@@ -73,7 +73,7 @@ class WrenchFade {
   Wrench felt_;  ///< the result of the last fade()
 };
 
-inline bool WrenchFade::turn_to(uint64_t object) {
+inline bool WrenchFade::set_object(uint64_t object) {
   const bool begins = object != object_ && object_ != 0;
   object_ = object;
   if (!begins) return false;

@@ -12,8 +12,8 @@ namespace spidar {
 namespace {
 
 /// After this many pairs of pictures, the measurement of a part of the picture is complete: even an
-/// object of a single block has been born (Track::kBornAfterBlocks).
-constexpr int kSettles_pairs = Track::kBornAfterBlocks;
+/// object of a single block is confirmed (Track::kConfirmBlocks).
+constexpr int kSettles_pairs = Track::kConfirmBlocks;
 
 /// The mean apparent motion of the points of a picture at rest is below this: blocks are accurate
 /// to a tenth of a pixel of the field.
@@ -136,7 +136,7 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
     area_finder_.tell(moves, step_px.x(), step_px.y(), running_ns);
   }
   // Until the switch, a film whose camera moves is wrongly felt as an object. After two pairs, most
-  // of the objects in the film have been born.
+  // of the objects in the film are confirmed.
   const bool shows_as_much = is_next_compared
                                  ? next_frame_.dominant != 0 || frame_.dominant == 0 ||
                                        (step_px.norm() > kRests_px && next_->pairs > 1) ||

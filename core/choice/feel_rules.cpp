@@ -79,7 +79,7 @@ class RuleParser {
     if (text_.empty()) return std::nullopt;
     parse_times();
     parse_what();
-    if (take("gain")) parse_gain();
+    if (accept("gain")) parse_gain();
     if (!text_.empty()) {
       wrong(rule_.line, quote(text_) + " follows the rule; only gain G can, as in gain 1.5");
     }
@@ -92,22 +92,22 @@ class RuleParser {
       text_.remove_prefix(1);
     }
   }
-  std::string_view word() const {
+  std::string_view next_word() const {
     size_t n = 0;
     while (n < text_.size() && text_[n] != ' ' && text_[n] != '\t') ++n;
     return text_.substr(0, n);
   }
-  bool take(std::string_view expected) {
-    if (word() != expected) return false;
+  bool accept(std::string_view expected) {
+    if (next_word() != expected) return false;
     text_.remove_prefix(expected.size());
     skip_space();
     return true;
   }
   /// Takes all words up to the next one that begins with a letter, and joins them without spaces.
-  std::string take_numbers() {
+  std::string accept_numbers() {
     std::string numbers;
     while (!text_.empty() && !is_letter(text_.front())) {
-      const std::string_view next = word();
+      const std::string_view next = next_word();
       numbers += next;
       text_.remove_prefix(next.size());
       skip_space();
@@ -121,7 +121,7 @@ class RuleParser {
     return *ns;
   }
   void parse_times() {
-    const std::string times = take_numbers();
+    const std::string times = accept_numbers();
     if (times.empty()) return;
     const size_t dash = times.find('-');
     if (dash == std::string::npos) {
@@ -133,8 +133,8 @@ class RuleParser {
   }
 
   Eigen::Vector2d parse_position() {
-    const std::string text = take_numbers();
-    const std::optional<Eigen::Vector2d> position = position_of(text.empty() ? word() : text);
+    const std::string text = accept_numbers();
+    const std::optional<Eigen::Vector2d> position = position_of(text.empty() ? next_word() : text);
     if (!position) {
       wrong(rule_.line,
             quote(text.empty() ? text_ : text) +
@@ -145,7 +145,7 @@ class RuleParser {
   }
   void parse_region() {
     const Eigen::Vector2d a = parse_position();
-    if (!take("to")) wrong(rule_.line, "a region is region X,Y to X,Y, from corner to corner");
+    if (!accept("to")) wrong(rule_.line, "a region is region X,Y to X,Y, from corner to corner");
     const Eigen::Vector2d b = parse_position();
     rule_.position = a.cwiseMin(b);
     rule_.far_corner = a.cwiseMax(b);
@@ -155,7 +155,7 @@ class RuleParser {
   }
   void parse_box() {
     rule_.kind = FeelRule::Kind::kBox;
-    std::string_view name = word();
+    std::string_view name = next_word();
     if (name.empty() || name == "gain") return;
     const bool is_quoted = name.front() == '"';
     if (is_quoted) {
@@ -180,39 +180,39 @@ class RuleParser {
   }
   void parse_what() {
     for (const Direction& direction : kDirections) {
-      if (!take(direction.word)) continue;
+      if (!accept(direction.word)) continue;
       rule_.kind = FeelRule::Kind::kFurthest;
       rule_.direction << direction.x, direction.y;
       return;
     }
-    if (take("object")) {
-      if (!take("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
+    if (accept("object")) {
+      if (!accept("at")) wrong(rule_.line, "an object is object at X,Y, as in object at 0.31,0.62");
       rule_.kind = FeelRule::Kind::kObjectAt;
       rule_.position = parse_position();
-    } else if (take("box")) {
+    } else if (accept("box")) {
       parse_box();
-    } else if (take("region")) {
+    } else if (accept("region")) {
       rule_.kind = FeelRule::Kind::kRegion;
       parse_region();
-    } else if (take("largest")) {
+    } else if (accept("largest")) {
       rule_.kind = FeelRule::Kind::kLargest;
-    } else if (take("camera")) {
+    } else if (accept("camera")) {
       rule_.kind = FeelRule::Kind::kCamera;
-    } else if (take("nothing")) {
+    } else if (accept("nothing")) {
       rule_.kind = FeelRule::Kind::kNothing;
     } else if (text_.empty()) {
       wrong(rule_.line, std::string("what is felt is missing, one of: ") + kAllWords);
     } else {
-      wrong(rule_.line, quote(word()) + " is none of: " + kAllWords);
+      wrong(rule_.line, quote(next_word()) + " is none of: " + kAllWords);
     }
   }
   void parse_gain() {
-    const std::optional<double> gain = number_of(word());
+    const std::optional<double> gain = number_of(next_word());
     if (!gain || *gain < 0 || *gain > kMaxRuleGain) {
-      wrong(rule_.line, quote(word()) + " is not a gain from 0 to 10");
+      wrong(rule_.line, quote(next_word()) + " is not a gain from 0 to 10");
     }
     rule_.gain = *gain;
-    text_.remove_prefix(word().size());
+    text_.remove_prefix(next_word().size());
     skip_space();
   }
 

@@ -36,7 +36,7 @@ void BoxedObject::begin(const char* name) {
 }
 
 Chosen::State BoxedObject::state() const {
-  if (has_found_ || waited_s_ <= kPatience_s) return Chosen::State::kGood;
+  if (has_found_ || waited_s_ <= kBoxTimeout_s) return Chosen::State::kGood;
   return has_box_ ? Chosen::State::kBoxAtRest : Chosen::State::kNoBox;
 }
 
@@ -88,7 +88,7 @@ const MovingObject* BoxedObject::update(const ChoiceInput& frame) {
 
 void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
   *this = FollowedObject();
-  state_ = State::kLooking;
+  state_ = State::kSearching;
   position_px_ = position_px;
   since_s_ = since_s;
 }
@@ -96,7 +96,7 @@ void FollowedObject::begin(const Eigen::Vector2d& position_px, double since_s) {
 /// Whether an object at the position may be the wanted one.
 bool FollowedObject::may_be(const MovingObject& object) const {
   if (object.points == 0) return false;
-  if (state_ == State::kLooking) return true;
+  if (state_ == State::kSearching) return true;
   const uint32_t* const end = before_.data() + before_count_;
   if (std::find(before_.data(), end, object.id) != end) return false;
   if (state_ != State::kFollowed) return true;
@@ -105,14 +105,14 @@ bool FollowedObject::may_be(const MovingObject& object) const {
 }
 
 /// Returns the candidate whose box is nearest to the position, and the smallest of several; null if
-/// none is within reach. In kLooking, boxes are moved back in time to where they were at begin().
+/// none is within reach. In kSearching, boxes are moved back in time to where they were at begin().
 const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
                                                 double reach_px) const {
   const MovingObject* best = nullptr;
   double nearest_px = reach_px;
   for (const MovingObject& object : objects) {
     if (!may_be(object)) continue;
-    const double back_s = state_ == State::kLooking ? since_s_ : 0;
+    const double back_s = state_ == State::kSearching ? since_s_ : 0;
     const Eigen::AlignedBox2d was_px = object.box_px().translated(-back_s * object.relative_px_s);
     const double distance_px = was_px.exteriorDistance(position_px_);
     const bool is_better =
@@ -151,10 +151,10 @@ const MovingObject* FollowedObject::update(const std::vector<MovingObject>& obje
   const MovingObject* found = find_object(objects, id_);
   if (!found) {
     if (id_ != 0 && state_ != State::kLost) miss(interval_s);
-    if (state_ == State::kLooking && since_s_ > kLook_s) state_ = State::kWaiting;
+    if (state_ == State::kSearching && since_s_ > kSearch_s) state_ = State::kWaiting;
     if (background && !is_first_) position_px_ += background->model.displacement_px(position_px_);
     position_px_ += velocity_px_s_ * interval_s;
-    const bool is_gone = state_ == State::kFollowed && (hidden_ || missing_s_ > kLook_s);
+    const bool is_gone = state_ == State::kFollowed && (hidden_ || missing_s_ > kSearch_s);
     if (state_ != State::kLost && !is_gone) {
       found = at_position(objects, kReach * frame_height);
     }
@@ -210,7 +210,7 @@ void ObjectChoice::begin(const FeelRule& rule, const ChoiceInput& frame) {
   best_ = 0;
   missed_ = false;
   const double since_s = static_cast<double>(frame.stream_ns - rule.from_ns) * 1e-9;
-  seen_from_begin_ = since_s <= FollowedObject::kLook_s;
+  seen_from_begin_ = since_s <= FollowedObject::kSearch_s;
   ruled_.begin(frame.px(rule.position), since_s);
   boxed_.begin(rule.name.data());
 }
@@ -251,7 +251,7 @@ bool ObjectChoice::follow_click(const ChoiceInput& frame, Chosen& choice) {
   const MovingObject* const object =
       clicked_.update(frame.objects, frame.height(), frame.interval_s, frame.background);
   const FollowedObject::State state = clicked_.state();
-  if (state == FollowedObject::State::kLooking) return false;
+  if (state == FollowedObject::State::kSearching) return false;
   choice.is_kept = true;
   choice.object = object;
   if (state == FollowedObject::State::kWaiting) choice.state = Chosen::State::kNotThere;

@@ -89,14 +89,15 @@ class BoxedObject {
   /// Call this after a cut, when all objects have new ids.
   void cut() { id_ = 0; }
 
-  /// kNoBox or kBoxAtRest if no box was around an object for kPatience_s after begin(); else kGood.
+  /// kNoBox or kBoxAtRest if no box was around an object for kBoxTimeout_s after begin(); else
+  /// kGood.
   Chosen::State state() const;
 
   /// How long an object is kept without a box: a detector that examines every tenth frame of 25 a
   /// second, as on slow machines, may miss it once.
   static constexpr double kHold_s = 0.8;
   /// How long a new rule may lack a box before this is reported.
-  static constexpr double kPatience_s = 1;
+  static constexpr double kBoxTimeout_s = 1;
   /// A box is around an object when at least this fraction of the smaller of the two lies in the
   /// other: a face is a part of a person who moves, and a moving leg a part of the person in the
   /// box.
@@ -120,11 +121,11 @@ class BoxedObject {
 class FollowedObject {
  public:
   enum class State {
-    kLooking,   ///< searches for the object at the position
-    kWaiting,   ///< no object is there: waits for the first motion there
-    kFollowed,  ///< visible, or hidden for a moment
-    kResting,   ///< where it was last seen
-    kLost,      ///< its position is unknown
+    kSearching,  ///< searches for the object at the position
+    kWaiting,    ///< no object is there: waits for the first motion there
+    kFollowed,   ///< visible, or hidden for a moment
+    kResting,    ///< where it was last seen
+    kLost,       ///< its position is unknown
   };
 
   /// Starts the search for the object that was at `position_px`, relative to the middle of the
@@ -145,7 +146,7 @@ class FollowedObject {
   State state() const { return state_; }
 
   /// How long the search lasts: an object is known only from the second frame of its motion on.
-  static constexpr double kLook_s = 0.5;
+  static constexpr double kSearch_s = 0.5;
   /// An object that is unseen for longer is lost. ObjectTracker keeps a hidden one for 0.5 s.
   static constexpr double kLost_s = 1;
   /// How far a position may be from an object's box, as a fraction of the frame's height.

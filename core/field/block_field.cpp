@@ -69,22 +69,22 @@ void reduce_rows(const uint8_t* const rows[3], int width, uint8_t* upper, uint8_
 
 /// If compensation leaves more than this fraction of the difference, the improvement may be chance.
 /// In a pan, most of the difference is motion, whatever the light does.
-constexpr double kAlike = 0.9;
+constexpr double kMaxRemaining = 0.9;
 
 /// Whether `table`, applied to `before`, clearly reduces the difference from `now`.
-bool makes_alike(const PaddedImage& before, const PaddedImage& now,
-                 const std::array<uint8_t, 256>& table) {
-  int64_t as_it_was = 0;
-  int64_t replaced = 0;
+bool reduces_difference(const PaddedImage& before, const PaddedImage& now,
+                        const std::array<uint8_t, 256>& table) {
+  int64_t difference = 0;
+  int64_t remaining = 0;
   for (int y = 0; y < now.height(); ++y) {
     const uint8_t* p = before.row(y);
     const uint8_t* q = now.row(y);
     for (int x = 0; x < now.width(); ++x) {
-      as_it_was += std::abs(q[x] - p[x]);
-      replaced += std::abs(q[x] - table[p[x]]);
+      difference += std::abs(q[x] - p[x]);
+      remaining += std::abs(q[x] - table[p[x]]);
     }
   }
-  return static_cast<double>(replaced) < kAlike * static_cast<double>(as_it_was);
+  return static_cast<double>(remaining) < kMaxRemaining * static_cast<double>(difference);
 }
 
 void replace_values(const std::array<uint8_t, 256>& table, PaddedImage& picture) {
@@ -167,7 +167,7 @@ void compensate_light(PaddedImage& coarse_before, const PaddedImage& coarse_now,
     const double value = gain * (static_cast<double>(v) - mean_before[0]) + mean_now[0];
     table[v] = static_cast<uint8_t>(std::clamp(value + 0.5, 0.0, 255.0));
   }
-  if (!makes_alike(coarse_before, coarse_now, table)) return;
+  if (!reduces_difference(coarse_before, coarse_now, table)) return;
   replace_values(table, coarse_before);
   replace_values(table, before);
 }
@@ -328,7 +328,7 @@ void BlockField::find_hints() {
   }
 }
 
-void BlockField::stand_still() {
+void BlockField::set_still() {
   stands_still_ = true;
   for (BlockMatch& match : matches_) match = BlockMatch();
   for (MotionBlock& block : blocks_) {

@@ -68,7 +68,7 @@ class BlockField {
   Result update(const PaddedImage& base);
 
   /// Repeats the picture: all blocks stand still.
-  void stand_still();
+  void set_still();
 
   void reset() { has_picture_ = false; }
   bool has_picture() const { return has_picture_; }

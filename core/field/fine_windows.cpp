@@ -83,8 +83,8 @@ bool FineWindows::read(const ImageView& frame, Template& window) {
   return smaller_eigenvalue(window.structure) > kMinTexture * n;
 }
 
-void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
-                           const FieldPosition& position, size_t block) {
+void FineWindows::store_one(const ImageView& frame, const BlockField& field,
+                            const FieldPosition& position, size_t block) {
   const Eigen::Vector2d at_px =
       position.centre_px + position.scale * field.blocks()[block].centre_px.cast<double>();
   windows_.emplace_back();
@@ -95,13 +95,13 @@ void FineWindows::keep_one(const ImageView& frame, const BlockField& field,
   if (!read(frame, window)) windows_.pop_back();
 }
 
-void FineWindows::keep(const ImageView& frame, const BlockField& field,
-                       const FieldPosition& position, const std::vector<size_t>& blocks) {
+void FineWindows::store(const ImageView& frame, const BlockField& field,
+                        const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
   // Of many blocks, only every n-th is used.
   const size_t every = 1 + blocks.size() / (kMax + 1);
   for (size_t i = 0; i < blocks.size() && windows_.size() < kMax; i += every) {
-    keep_one(frame, field, position, blocks[i]);
+    store_one(frame, field, position, blocks[i]);
   }
 }
 

@@ -39,8 +39,8 @@ class FineWindows {
   FineWindows();
 
   /// Keeps windows of `frame` for these blocks of `field`, or for some of them if they are many.
-  void keep(const ImageView& frame, const BlockField& field, const FieldPosition& position,
-            const std::vector<size_t>& blocks);
+  void store(const ImageView& frame, const BlockField& field, const FieldPosition& position,
+             const std::vector<size_t>& blocks);
 
   /// Finds the windows in the next frame, after the update of `field`. Lost windows are left out.
   /// The result is valid until the next call.
@@ -70,8 +70,8 @@ class FineWindows {
   };
 
   bool read(const ImageView& frame, Template& window);
-  void keep_one(const ImageView& frame, const BlockField& field, const FieldPosition& position,
-                size_t block);
+  void store_one(const ImageView& frame, const BlockField& field, const FieldPosition& position,
+                 size_t block);
   bool step(const Template& window, const Eigen::Vector2f& offset_px, Eigen::Vector2f& step_px,
             float& residual) const;
   bool match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px);

@@ -16,7 +16,7 @@ constexpr double kSameInterval = 0.2;
 /// A single different interval among this many is an outlier. In a cadence, at least one interval
 /// in five differs, as with 25 pictures a second in 30 frames. (With 24 in 25, one in 24 differs,
 /// and without it the interval is only 4 % too short.)
-constexpr size_t kAccidentIn = 2 * 5;
+constexpr size_t kOutlierIn = 2 * 5;
 /// Fewer pictures do not show a cadence: two periods of the shortest one, in which two pictures are
 /// shown for different times.
 constexpr size_t kMinPictures = 2 * 2;
@@ -34,7 +34,7 @@ double slope_of(const double* times, size_t count) {
 
 }  // namespace
 
-void Cadence::remember(const Shown& shown) {
+void Cadence::add_interval(const Shown& shown) {
   // At another playback rate, or with irregular frames, earlier intervals are not comparable.
   if (!shown_.empty()) {
     const double before = static_cast<double>(shown_[0].interval_ns) / shown_[0].frames;
@@ -46,7 +46,7 @@ void Cadence::remember(const Shown& shown) {
 
 /// Joins intervals that were split because the first repetitions in a coded film passed for new
 /// pictures.
-void Cadence::join_pieces(const RepeatedPicture::Repeats& repeats) {
+void Cadence::merge_split_intervals(const RepeatedPicture::Repeats& repeats) {
   const History<Shown, kPictures> pieces = shown_;
   shown_.clear();
   Shown whole{0, 0};
@@ -63,7 +63,7 @@ void Cadence::join_pieces(const RepeatedPicture::Repeats& repeats) {
   frames_ += whole.frames;
 }
 
-bool Cadence::knows_repeats() const {
+bool Cadence::has_repeats() const {
   for (size_t i = 0; i < shown_.size(); ++i) {
     if (shown_[i].frames > 1) return true;
   }
@@ -91,7 +91,7 @@ int64_t Cadence::median_ns() const {
 /// Whether at most one of the latest intervals differs from this one.
 bool Cadence::is_alike_but_for_one(int64_t interval_ns) const {
   size_t unlike = 0;
-  for (size_t i = 0; i < std::min(shown_.size(), kAccidentIn); ++i) {
+  for (size_t i = 0; i < std::min(shown_.size(), kOutlierIn); ++i) {
     const double off_ns = std::abs(static_cast<double>(shown_[i].interval_ns - interval_ns));
     if (off_ns >= kSameInterval * static_cast<double>(interval_ns)) ++unlike;
   }
@@ -122,8 +122,8 @@ double Cadence::even_interval_ns(size_t pictures) const {
 
 /// The time between two pictures in the cadence of as many of the latest ones as share one; 0 if
 /// there is none.
-int64_t Cadence::learnt_ns() const {
-  if (!knows_repeats()) return 0;
+int64_t Cadence::cadence_ns() const {
+  if (!has_repeats()) return 0;
   // The interval that may differ can be a rest, after which the picture moves again.
   if (const int64_t median = median_ns(); is_alike_but_for_one(median)) return median;
   for (size_t pictures = shown_.size(); pictures >= kMinPictures; pictures /= 2) {
@@ -149,7 +149,7 @@ Cadence::Step Cadence::update(FrameComparison picture, int64_t time_ns,
   const int64_t frame_ns = std::max<int64_t>(time_ns - frame_ns_, 1);
   frame_ns_ = time_ns;
   if (repeated) {
-    if (!knows_repeats()) join_pieces(repeats);
+    if (!has_repeats()) merge_split_intervals(repeats);
     ++frames_;
     // A picture at rest is measured frame by frame.
     return waits ? Step{true, 0, 0} : Step{false, frame_ns, frame_ns};
@@ -159,9 +159,9 @@ Cadence::Step Cadence::update(FrameComparison picture, int64_t time_ns,
   frames_ = 1;
   has_changed_ = true;
   const bool is_compared = before.interval_ns <= kLongest_ns;
-  if (is_compared && picture == FrameComparison::kOther) remember(before);
+  if (is_compared && picture == FrameComparison::kOther) add_interval(before);
   const int64_t shown_for_ns = is_compared ? before.interval_ns : frame_ns;
-  const int64_t learnt = learnt_ns();
+  const int64_t learnt = cadence_ns();
   return {false, learnt > 0 ? learnt : shown_for_ns, shown_for_ns};
 }
 

@@ -65,14 +65,14 @@ class Cadence {
     int frames = 1;           ///< the number of frames that showed the picture
   };
 
-  void remember(const Shown& shown);
-  void join_pieces(const RepeatedPicture::Repeats& repeats);
-  bool knows_repeats() const;
+  void add_interval(const Shown& shown);
+  void merge_split_intervals(const RepeatedPicture::Repeats& repeats);
+  bool has_repeats() const;
   int64_t expected_ns() const;
   int64_t median_ns() const;
   bool is_alike_but_for_one(int64_t interval_ns) const;
   double even_interval_ns(size_t pictures) const;
-  int64_t learnt_ns() const;
+  int64_t cadence_ns() const;
 
   History<Shown, kPictures> shown_;
   int64_t picture_ns_ = 0;    ///< when the latest picture was first shown

@@ -17,14 +17,14 @@ FieldPosition position_of(const BlockField& field, const ReducedFrame& reduced) 
 
 }  // namespace
 
-void MotionEstimator::keep_windows(const ImageView& frame, const FieldPosition& position) {
+void MotionEstimator::store_windows(const ImageView& frame, const FieldPosition& position) {
   const std::vector<uint32_t>& owners = objects_.owners();
   of_objects_.reserve(owners.size());
   of_objects_.clear();
   for (size_t i = 0; i < owners.size(); ++i) {
     if (owners[i] != 0) of_objects_.push_back(i);
   }
-  windows_.keep(frame, field_, position, of_objects_);
+  windows_.store(frame, field_, position, of_objects_);
 }
 
 /// Lists the blocks that show how they move as points; the id is the index of the block.
@@ -45,7 +45,7 @@ void MotionEstimator::report_points(const FieldPosition& position,
 bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduced,
                                MeasuredFrame& frame, uint32_t felt) {
   if (reduced.picture() == FrameComparison::kSame && field_.has_picture()) {
-    field_.stand_still();
+    field_.set_still();
   } else if (field_.update(reduced.base()) != BlockField::Result::kMoved) {
     camera_.reset();
     objects_.reset();
@@ -71,7 +71,7 @@ bool MotionEstimator::estimate(const ImageView& image, const ReducedFrame& reduc
   const MovingObject* const dominant = dominant_.choose(objects, interval_s);
   frame.dominant = dominant ? dominant->id : 0;
   report_points(position, frame.points);
-  keep_windows(image, position);
+  store_windows(image, position);
   frame.features = static_cast<int>(frame.points.size());
   return true;
 }

@@ -36,7 +36,7 @@ class MotionEstimator {
   void reset();
 
  private:
-  void keep_windows(const ImageView& frame, const FieldPosition& position);
+  void store_windows(const ImageView& frame, const FieldPosition& position);
   void report_points(const FieldPosition& position, std::vector<FollowedPoint>& points) const;
 
   BlockField field_;

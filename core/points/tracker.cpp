@@ -164,7 +164,7 @@ struct OpenCvTracker::Impl {
 
   void track(const ImageView& frame, bool may_wait);
   bool follow();
-  void stand_still();
+  void set_still();
   bool selection_is_due() const;
   void select();
 };
@@ -172,7 +172,7 @@ struct OpenCvTracker::Impl {
 void OpenCvTracker::Impl::track(const ImageView& frame, bool may_wait) {
   result.picture = reduced.read(frame, may_wait);
   if (result.picture == FrameComparison::kSame) {
-    if (!may_wait) stand_still();
+    if (!may_wait) set_still();
     return;
   }
   std::swap(before, now);
@@ -217,7 +217,7 @@ bool OpenCvTracker::Impl::follow() {
   return !is_cut;
 }
 
-void OpenCvTracker::Impl::stand_still() {
+void OpenCvTracker::Impl::set_still() {
   result.points.clear();
   for (const Feature& feature : features) {
     const ImagePoint at = in_frame(feature.at, reduced.factor());

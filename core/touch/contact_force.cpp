@@ -95,10 +95,10 @@ void ContactForce::follow_energy(const ContactSettings& settings, const Eigen::V
   const double length_m = (proxy_.position_m() - grip_m).norm();
   const double force_N = std::min(settings.stiffness_N_m * length_m, settings.max_force_N);
   const double stored_J = force_N * (length_m - 0.5 * force_N / settings.stiffness_N_m);
-  double put_in_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
+  double added_J = length_m > 0 ? 0.5 * force_N / length_m * proxy_.stretched_m2() : 0;
   // A receding surface takes energy out at the actual force, which may be below the spring force.
-  if (put_in_J < 0) put_in_J *= std::min(1.0, budget_.force_N().norm() / force_N);
-  budget_.update(moved_m, velocity_m_s_, put_in_J, stored_J);
+  if (added_J < 0) added_J *= std::min(1.0, budget_.force_N().norm() / force_N);
+  budget_.update(moved_m, velocity_m_s_, added_J, stored_J);
 }
 
 /// The force before the energy bound is applied.

@@ -63,8 +63,8 @@ class ContactForce {
                        double dt_s) noexcept;
 
   /// Call this after tick(): see EnergyBudget.
-  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
-    budget_.deliver(given, turn_rad);
+  void set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    budget_.set_delivered(given, turn_rad);
   }
 
   const Eigen::Vector3d& velocity_m_s() const noexcept { return velocity_m_s_; }

@@ -16,13 +16,13 @@ Eigen::Vector3d bounded(const Eigen::Vector3d& vector, double most) noexcept {
 }  // namespace
 
 void EnergyBudget::update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& velocity_m_s,
-                          double put_in_J, double stored_J) noexcept {
-  left_J_ = std::min(left_J_ - before_N_.dot(moved_m) + put_in_J, stored_J);
+                          double added_J, double stored_J) noexcept {
+  left_J_ = std::min(left_J_ - before_N_.dot(moved_m) + added_J, stored_J);
   velocity_m_s_.add(velocity_m_s);
 }
 
-double EnergyBudget::most_N(const Eigen::Vector3d& direction, const ForcePath& path,
-                            double dt_s) const noexcept {
+double EnergyBudget::allowed_force_N(const Eigen::Vector3d& direction, const ForcePath& path,
+                                     double dt_s) const noexcept {
   // The grip is at rest before the first tick.
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
@@ -64,7 +64,7 @@ double EnergyBudget::allowed_fraction(const Eigen::Vector3d& wanted_N, const For
     return 1;
   }
   const double back_N = bounded_N_ + path.max_slew_N_s * std::min(dt_s, path.longest_tick_s);
-  const double allowed_N = std::min(back_N, most_N(wanted_N / size_N, path, dt_s));
+  const double allowed_N = std::min(back_N, allowed_force_N(wanted_N / size_N, path, dt_s));
   bounded_N_ = allowed_N < size_N ? allowed_N : kUnbounded_N;
   return std::min(1.0, allowed_N / size_N);
 }
@@ -85,21 +85,21 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   fading_ = path.lag_s > 0 ? std::exp(-path.tick_s / path.lag_s) : 0;
   lag_ticks_ = path.lag_s / path.tick_s;
   turned_Nm_ = mean_.torque_Nm;
-  hold({limited_N_ - beside_N_, Eigen::Vector3d::Zero()});
+  apply_lag({limited_N_ - beside_N_, Eigen::Vector3d::Zero()});
 }
 
-void EnergyBudget::hold(const Wrench& own) noexcept {
+void EnergyBudget::apply_lag(const Wrench& own) noexcept {
   const Wrench behind = begun_ - own;
   mean_ = own + (1 - fading_) * lag_ticks_ * behind;
   acting_ = own + fading_ * behind;
 }
 
-void EnergyBudget::deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+void EnergyBudget::set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
   left_J_ -= turned_Nm_.dot(turn_rad);
   const double size_N = limited_N_.norm();
   if (!(size_N > 0) || !beside_N_.isZero(0)) return;
-  if (size_N > kTelling_N) given_ = given.force_N / size_N;
-  hold(given);
+  if (size_N > kKnownDirection_N) given_ = given.force_N / size_N;
+  apply_lag(given);
 }
 
 }  // namespace spidar::touch

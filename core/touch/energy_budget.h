@@ -39,10 +39,10 @@ struct ForcePath {
 class EnergyBudget {
  public:
   /// Call once per tick, before choosing the force. `moved_m` is the displacement of the grip since
-  /// the last tick, from the poses of the last two exchanges. `put_in_J` is the energy added by the
+  /// the last tick, from the poses of the last two exchanges. `added_J` is the energy added by the
   /// motion of the surface. `stored_J` is the energy stored in the spring, 0 without contact; the
   /// energy left never exceeds it.
-  void update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& velocity_m_s, double put_in_J,
+  void update(const Eigen::Vector3d& moved_m, const Eigen::Vector3d& velocity_m_s, double added_J,
               double stored_J) noexcept;
 
   /// The fraction of `wanted_N` that is allowed. A force that was bounded rises again no faster
@@ -51,8 +51,8 @@ class EnergyBudget {
                           double dt_s) noexcept;
 
   /// The largest allowed force along the unit vector `direction`.
-  double most_N(const Eigen::Vector3d& direction, const ForcePath& path,
-                double dt_s) const noexcept;
+  double allowed_force_N(const Eigen::Vector3d& direction, const ForcePath& path,
+                         double dt_s) const noexcept;
 
   /// Sets the force of this tick, before the limits of the path. `beside_N`, a force that does not
   /// come from the contact, shares these limits. The contact's part is the limited sum minus what
@@ -64,14 +64,14 @@ class EnergyBudget {
   /// and have a torque. Without this call, and beside another force, whose part is unknown, the
   /// device is assumed to give the command. The grip has turned by `turn_rad` since the last
   /// exchange.
-  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
+  void set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
 
   /// Estimated energy absorbed from the hand in this contact and not yet returned.
   double left_J() const noexcept { return left_J_; }
   const Eigen::Vector3d& force_N() const noexcept { return acting_.force_N; }
 
  private:
-  void hold(const Wrench& own) noexcept;
+  void apply_lag(const Wrench& own) noexcept;
 
   // The number of ticks, if they are on time, over which the acceleration is measured.
   static constexpr int kSlope = 3;
@@ -79,7 +79,7 @@ class EnergyBudget {
   double left_J_ = 0;
   double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
   // The direction of a smaller force is uncertain: the steps of a D/A converter are 5 mN.
-  static constexpr double kTelling_N = 0.05;
+  static constexpr double kKnownDirection_N = 0.05;
   // Short ticks follow a late one, so that more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;

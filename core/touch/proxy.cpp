@@ -92,7 +92,7 @@ void Proxy::walk(const MovingRelief& surface, double friction,
     const double depth_m = -normal_.dot(to_grip_m);
     // A grip above the tangent plane may still be below a concave surface.
     if (depth_m <= 0 && grip_m.z() >= surface.at(grip_m.head<2>()).z_m + shift_m_) {
-      leave(grip_m);
+      lose_contact(grip_m);
       return;
     }
     const Eigen::Vector3d along_m = to_grip_m + depth_m * normal_;
@@ -129,7 +129,7 @@ bool Proxy::step(const MovingRelief& surface, const Eigen::Vector3d& step_m,
   return false;
 }
 
-void Proxy::leave(const Eigen::Vector3d& grip_m) noexcept {
+void Proxy::lose_contact(const Eigen::Vector3d& grip_m) noexcept {
   touching_ = false;
   sliding_ = false;
   position_m_ = grip_m;

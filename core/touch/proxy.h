@@ -83,7 +83,7 @@ class Proxy {
   void walk(const MovingRelief& surface, double friction, const Eigen::Vector3d& grip_m) noexcept;
   bool step(const MovingRelief& surface, const Eigen::Vector3d& step_m,
             const Eigen::Vector3d& grip_m) noexcept;
-  void leave(const Eigen::Vector3d& grip_m) noexcept;
+  void lose_contact(const Eigen::Vector3d& grip_m) noexcept;
 
   bool touching_ = false;
   bool sliding_ = false;

@@ -58,14 +58,14 @@ class AhapCurveWriter {
 
   void add(size_t index, double value) {
     points_.push_back({index, value});
-    if (points_.size() == kMaxPoints) put();
+    if (points_.size() == kMaxPoints) write_curve();
   }
   void finish() {
-    if (points_.size() > 1) put();
+    if (points_.size() > 1) write_curve();
   }
 
  private:
-  void put() {
+  void write_curve() {
     const double begin_s = seconds(points_.front().index);
     Json controls = Json::array();
     for (const Point& point : points_) {

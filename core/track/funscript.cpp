@@ -73,7 +73,7 @@ double usual_gain(size_t channel) {
 }
 
 /// Replaces an axis of the same channel: players use the last of several.
-void put(ScriptAxis axis, Funscript& script) {
+void set_axis(ScriptAxis axis, Funscript& script) {
   const auto same = std::find_if(script.axes.begin(), script.axes.end(),
                                  [&](const auto& other) { return other.channel == axis.channel; });
   if (same == script.axes.end()) {
@@ -92,9 +92,9 @@ void read_axis(const ReadJson& from, const std::string& name, const std::string&
   }
   const ReadJson* const actions = member(from, "actions");
   if (!actions) throw TrackFileError(where + " has no actions");
-  put({name, *channel, usual_gain(*channel), false,
-       read_points(*actions, where + ".actions", read_scale(from, where, scale))},
-      script);
+  set_axis({name, *channel, usual_gain(*channel), false,
+            read_points(*actions, where + ".actions", read_scale(from, where, scale))},
+           script);
 }
 
 /// Reads the axes of version 1.1.
@@ -125,7 +125,7 @@ void read_notes(const ReadJson& root, ScriptAxis& axis) {
   axis.is_noted = true;
 }
 
-bool is_same_word(std::string_view a, std::string_view b) {
+bool equals_ignoring_case(std::string_view a, std::string_view b) {
   const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                     [&](char x, char y) { return small(x) == small(y); });
@@ -173,14 +173,14 @@ float ScriptAxis::at(int64_t time_ms) const {
 
 std::optional<size_t> channel_of_axis(std::string_view name) {
   for (const auto& [known, channel] : kAxisNames) {
-    if (is_same_word(name, known)) return channel;
+    if (equals_ignoring_case(name, known)) return channel;
   }
   return std::nullopt;
 }
 
 bool is_other_axis(std::string_view name) {
   return std::any_of(std::begin(kOtherNames), std::end(kOtherNames),
-                     [&](const char* other) { return is_same_word(name, other); });
+                     [&](const char* other) { return equals_ignoring_case(name, other); });
 }
 
 Funscript parse_funscript(const std::string& text, size_t channel) {
@@ -196,7 +196,7 @@ Funscript parse_funscript(const std::string& text, size_t channel) {
   read_notes(root, own);
   if (actions) own.points = read_points(*actions, "actions", scale);
   Funscript script;
-  if (actions) put(std::move(own), script);
+  if (actions) set_axis(std::move(own), script);
   if (axes) read_axes(*axes, scale, script);
   if (channels) read_channels(*channels, scale, script);
   return script;

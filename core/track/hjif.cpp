@@ -158,7 +158,7 @@ class Curves {
            const std::string& where) {
     if (curve.empty()) return;
     reach(index_before(curve.back().tick) + 1, where);
-    put(curve.front(), channel, gain);
+    add_keyframe(curve.front(), channel, gain);
     for (size_t k = 1; k < curve.size(); ++k) {
       const Keyframe &a = curve[k - 1], &b = curve[k];
       const double length = static_cast<double>(b.tick - a.tick);
@@ -185,7 +185,7 @@ class Curves {
     return static_cast<size_t>(tick * kTrackRate_Hz / ticks_Hz_);
   }
   /// Sets the sample at a keyframe.
-  void put(const Keyframe& keyframe, size_t channel, double gain) {
+  void add_keyframe(const Keyframe& keyframe, size_t channel, double gain) {
     const size_t i = index_before(keyframe.tick);
     if (static_cast<int64_t>(i) * ticks_Hz_ == keyframe.tick * kTrackRate_Hz) {
       samples_[i][channel] += static_cast<float>(gain * keyframe.amplitude);

@@ -20,7 +20,7 @@ class StructureFields : public FieldSink {
       : FieldSink(outputs), structure_(structure) {}
 
  private:
-  void take(const Field& field, const FieldValue& value) override {
+  void write(const Field& field, const FieldValue& value) override {
     if (const auto* const parts = std::get_if<Parts>(&value)) {
       for (const auto& [part, scalar] : *parts) {
         set((std::string(field.name) + '-' + part).c_str(), scalar);

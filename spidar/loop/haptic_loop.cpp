@@ -319,9 +319,9 @@ void HapticLoop::count_energy(const TickRecord& record) noexcept {
   at_ = grip_->reading().pose;
   const bool is_alone = record.wanted.force_N == record.contact.force_N;
   if (record.contact.has_surface && is_alone && safety_.is_ramped()) {
-    touch_.deliver(above_rest_, turn_rad);
+    touch_.set_delivered(above_rest_, turn_rad);
   }
-  if (record.called_back) callback_.deliver(above_rest_, turn_rad);
+  if (record.called_back) callback_.set_delivered(above_rest_, turn_rad);
 }
 
 /// A grip that cannot fly needs no brake. `passed_s` is not limited as a rising force is: however

@@ -55,8 +55,8 @@ class WrenchCallback {
               const SafetyLimits& limits) noexcept;
 
   /// Call this after call(), with the wrench that the device exerts, see touch::EnergyBudget.
-  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
-    budget_.deliver(given, turn_rad);
+  void set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    budget_.set_delivered(given, turn_rad);
   }
 
   /// Call this in a tick in which the pose is unknown or the loop is closing.

@@ -178,8 +178,8 @@ class Rendering {
 
   /// Call this after tick(), with the wrench that the device exerts for the contact and the other
   /// force, see touch::EnergyBudget.
-  void deliver(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
-    contact_.deliver(given, turn_rad);
+  void set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept {
+    contact_.set_delivered(given, turn_rad);
   }
 
   /// Renders a tick without contact, because nothing is playing or the pose of the grip is unknown.

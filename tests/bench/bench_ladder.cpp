@@ -181,7 +181,7 @@ void measure(ModelKind truth_kind, int every) {
     for (int frame = 0; frame < kFrames; ++frame) {
       const BackgroundVotes votes = votes_of(truth, object_px, every, random);
       const double begin_ns = bench::now_ns();
-      const Background& found = estimator.keep(estimator.propose(votes));
+      const Background& found = estimator.store(estimator.propose(votes));
       element.us.push_back(1e-3 * (bench::now_ns() - begin_ns));
       estimator.learn_noise(votes, [](size_t) { return false; });
       ++element.chosen[static_cast<size_t>(found.model.kind)];

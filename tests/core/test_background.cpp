@@ -45,7 +45,7 @@ BackgroundVotes votes(const std::vector<Displacement>& points, int blocks = 250)
 }
 
 Background estimate(BackgroundEstimator& estimator, const BackgroundVotes& votes) {
-  return estimator.keep(estimator.propose(votes));
+  return estimator.store(estimator.propose(votes));
 }
 
 Background settle(BackgroundEstimator& estimator, PointSource& source, const MotionModel& truth,

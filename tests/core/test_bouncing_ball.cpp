@@ -135,7 +135,7 @@ TEST(BouncingBall, IsTheSameOnlyIfItIsKnownWellAndNoLayer) {
   ball.state = Track::State::kHidden;
   ball.since_s = kFrame_s;
   ball.is_proven = true;
-  ball.blocks_seen = 4 * Track::kBornAfterBlocks;
+  ball.blocks_seen = 4 * Track::kConfirmBlocks;
   ball.expected.velocity_px_s = {0, kSpeed_px / kFrame_s};
   Region after;
   after.relative_px = {0, -kSpeed_px};

@@ -122,7 +122,7 @@ TEST(BoxedObject, SaysWhetherBoxesOrObjectsAreMissingAndNotAtOnce) {
       {{box("dog", {0, 60}, {20, 20})}, Chosen::State::kBoxAtRest}};
   for (const auto& [boxes, state] : cases) {
     Watcher watcher("box dog");
-    watcher.see_for(BoxedObject::kPatience_s - kFrame_s, two(), boxes);
+    watcher.see_for(BoxedObject::kBoxTimeout_s - kFrame_s, two(), boxes);
     EXPECT_EQ(watcher.state_, Chosen::State::kGood);
     watcher.see_for(2 * kFrame_s, two(), boxes);
     EXPECT_EQ(watcher.state_, state);

@@ -55,7 +55,7 @@ TEST(CoarseBlocks, MoveAsThePictureDoesWhereNoBlockShowsIt) {
   }
   // Those of the two borders that the picture leaves were not whole before.
   EXPECT_GT(right, found.size() * 3 / 4);
-  field.stand_still();
+  field.set_still();
   EXPECT_TRUE(coarse.find(field).empty());
 }
 
@@ -109,7 +109,7 @@ TEST(PlainParts, TellAPanFromRestAndFromNoise) {
 TEST(PlainParts, AreComparedWithPicturesBeforeARepeatedOne) {
   BlockField field = field_after(3, 0.1, kPan_px);
   EXPECT_EQ(field.pictures_back(), 2);
-  field.stand_still();
+  field.set_still();
   EXPECT_EQ(field.pictures_back(), 0);
   field.update(wall(0.1, 3 * kPan_px, 3));
   EXPECT_EQ(field.pictures_back(), 3);

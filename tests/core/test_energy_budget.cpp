@@ -30,7 +30,7 @@ TEST(EnergyBudget, WhatIsTakenBackFromTheBoundOnDoesTheWorkThatIsLeft) {
         path.lag_s = lag_s;
         const double before_N = 0.001 * left_J / 1e-5;
         const touch::EnergyBudget budget = budget_of(left_J, out_m_s, before_N, path);
-        const double most_N = budget.most_N(kUp, path, kTick_s);
+        const double most_N = budget.allowed_force_N(kUp, path, kTick_s);
         if (most_N == 0) continue;
         // The mass feels the force that is still there, and then the bound, which is taken back by
         // a step a tick. The work follows from the impulse alone: p²/2m before and after.
@@ -125,7 +125,7 @@ TEST(EnergyBudget, CountsWhatTheDeviceGives) {
   const auto tick = [&](const Eigen::Vector3d& beside_N, const Wrench& given,
                         const Eigen::Vector3d& turn_rad = kStill) {
     budget.command(3 * kUp, beside_N, path, kTick_s);
-    budget.deliver(given, turn_rad);
+    budget.set_delivered(given, turn_rad);
   };
   // Of 3 N, one, and one to the side.
   for (int n = 0; n < 2; ++n) tick(kNothing, {kUp + aside, kNothing});
@@ -150,11 +150,11 @@ TEST(EnergyBudget, AllowsNothingThatHelpsTheMotion) {
     budget.update(kStill, 0.1 * kUp, 0, 0);
     budget.command(-kUp, kNothing, path, kTick_s);
     if (n == 50) {
-      EXPECT_GT(budget.most_N(-kUp, path, kTick_s), 1);
+      EXPECT_GT(budget.allowed_force_N(-kUp, path, kTick_s), 1);
     }
-    if (n > 50) budget.deliver({0.5 * kUp, kNothing}, kStill);
+    if (n > 50) budget.set_delivered({0.5 * kUp, kNothing}, kStill);
   }
-  EXPECT_EQ(budget.most_N(-kUp, path, kTick_s), 0);
+  EXPECT_EQ(budget.allowed_force_N(-kUp, path, kTick_s), 0);
 }
 
 TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
@@ -164,7 +164,7 @@ TEST(EnergyBudget, AllowsAForceThatPressesOnASpringAtRest) {
   for (const auto& [stiffness_N_m, force_N] : {std::pair{500.0, 4.1}, {800.0, 2.9}}) {
     const double stored_J = 0.5 * force_N * force_N / stiffness_N_m;
     const touch::EnergyBudget budget = budget_of(stored_J, 0, force_N, path);
-    EXPECT_GE(budget.most_N(kUp, path, kTick_s), force_N);
+    EXPECT_GE(budget.allowed_force_N(kUp, path, kTick_s), force_N);
   }
 }
 

@@ -43,7 +43,7 @@ struct Fine {
   void keep_all(const Picture& picture) {
     std::vector<size_t> blocks(field.blocks().size());
     std::iota(blocks.begin(), blocks.end(), size_t{0});
-    windows.keep(picture.view(), field, position, blocks);
+    windows.store(picture.view(), field, position, blocks);
   }
 };
 
@@ -81,7 +81,8 @@ TEST(FineWindows, AreNeverMoreThanThereIsRoomFor) {
   const size_t block = grid.index(grid.columns / 2, grid.rows / 2);
   // Of 97, every second one is 49.
   for (const size_t count : {FineWindows::kMax, 2 * FineWindows::kMax + 1}) {
-    fine.windows.keep(picture.view(), fine.field, fine.position, std::vector<size_t>(count, block));
+    fine.windows.store(picture.view(), fine.field, fine.position,
+                       std::vector<size_t>(count, block));
     EXPECT_EQ(fine.windows.find(picture.view(), fine.field, fine.position).size(),
               FineWindows::kMax);
   }

@@ -20,7 +20,7 @@ Wrench pushing(double x_N, double turning_Nm = 0) {
 constexpr double kFrame_s = 0.04;  // 0.4 of kFade_s
 
 Wrench felt(WrenchFade& fade, const Wrench& wrench, uint32_t object, double interval_s) {
-  fade.turn_to(object);
+  fade.set_object(object);
   return fade.fade(wrench, interval_s);
 }
 

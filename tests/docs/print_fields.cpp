@@ -29,7 +29,7 @@ class Rows : public FieldSink {
   void end() override { group_.clear(); }
 
  private:
-  void take(const Field& field, const FieldValue& value) override {
+  void write(const Field& field, const FieldValue& value) override {
     const auto* const parts = std::get_if<Parts>(&value);
     std::string name = field.name;
     std::string facts;

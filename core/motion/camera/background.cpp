@@ -214,23 +214,23 @@ bool BackgroundEstimator::is_explained(const MotionModel& model) const {
 }
 
 /// Looks for a more general model that is better. Returns false when there is none.
-bool BackgroundEstimator::climb(const MotionModel& start, const BackgroundVotes& votes,
-                                Scored& current) {
-  bool climbed = false;
+bool BackgroundEstimator::find_more_general(const MotionModel& start, const BackgroundVotes& votes,
+                                            Scored& current) {
+  bool is_more_general = false;
   for (int model = static_cast<int>(current.model.kind) + 1; model < kModelKinds; ++model) {
     Scored higher;
     if (!score(static_cast<ModelKind>(model), start, votes, higher)) continue;
     if (higher.gric >= current.gric) continue;
     current = higher;
-    climbed = true;
+    is_more_general = true;
     if (is_explained(current.model)) break;
   }
-  return climbed;
+  return is_more_general;
 }
 
 /// Goes back to a simpler model if it is better: the next simpler one, or 'still'.
-void BackgroundEstimator::descend(const MotionModel& start, const BackgroundVotes& votes,
-                                  Scored& current) {
+void BackgroundEstimator::find_simpler(const MotionModel& start, const BackgroundVotes& votes,
+                                       Scored& current) {
   Scored best = current;
   for (const ModelKind kind : {next(current.model.kind, -1), ModelKind::kStill}) {
     Scored lower;
@@ -268,8 +268,10 @@ Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   if (!score(background_.model.kind, start, votes, current)) {
     score(ModelKind::kStill, start, votes, current);
   }
-  const bool climbed = !is_explained(current.model) && climb(start, votes, current);
-  if (!climbed && current.model.kind != ModelKind::kStill) descend(start, votes, current);
+  const bool is_more_general =
+      !is_explained(current.model) && find_more_general(start, votes, current);
+  if (!is_more_general && current.model.kind != ModelKind::kStill)
+    find_simpler(start, votes, current);
   if (!is_proven(current, votes)) return {MotionModel(), noise_px_, 0, false};
   return {current.model, noise_px_, current.coverage, true, votes.of_coarse_blocks};
 }

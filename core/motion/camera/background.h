@@ -79,7 +79,7 @@ class BackgroundEstimator {
   /// Estimates the background from the votes of one frame, without storing it.
   Background propose(const BackgroundVotes& votes);
   /// Stores the background for comparison with the next frame.
-  const Background& keep(const Background& background) { return background_ = background; }
+  const Background& store(const Background& background) { return background_ = background; }
 
   /// Learns the noise of the displacements from the votes on the stored background, for the next
   /// frame. Leaves out votes for which `moves(source)` is true: they move by themselves.
@@ -118,8 +118,8 @@ class BackgroundEstimator {
   bool score(ModelKind kind, const MotionModel& start, const BackgroundVotes& votes,
              Scored& scored);
   bool is_explained(const MotionModel& model) const;
-  bool climb(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
-  void descend(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
+  bool find_more_general(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
+  void find_simpler(const MotionModel& start, const BackgroundVotes& votes, Scored& current);
   void learn_noise();
 
   WeightedDisplacements evidence_;

@@ -224,7 +224,7 @@ const Background& CameraChoice::find(const BlockField& field, const PreviousFram
   Background chosen = find_in_order(field, past);
   if (field.pictures_back() > 0) prefer_rival(field, past, chosen);
   plain_.remember(field, likely_);
-  return estimator_.keep(chosen);
+  return estimator_.store(chosen);
 }
 
 Background CameraChoice::find_in_order(const BlockField& field, const PreviousFrame& past) {

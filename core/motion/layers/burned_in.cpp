@@ -39,7 +39,7 @@ struct Side {
     return difference > kRounding_grey * kBlockArea_px;
   }
 
-  bool stands(int line) const {
+  bool is_still(int line) const {
     for (int position = across; position < positions() - across; ++position) {
       if (has_changed(line, position)) return false;
     }
@@ -47,10 +47,10 @@ struct Side {
   }
 
   /// How many lines stand still, from this side inwards; 0 if they are more than a bar can have.
-  int standing() const {
+  int still_lines() const {
     const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
-    while (n <= most && stands(n)) ++n;
+    while (n <= most && is_still(n)) ++n;
     return n > most ? 0 : n;
   }
 
@@ -108,8 +108,8 @@ void Margins::Bars::begin(int width) {
 void Margins::update_bars(Bars& bars, const BlockField& field, bool are_columns, int across) {
   const Side first{field, are_columns, false, across};
   const Side last{field, are_columns, true, across};
-  const int at_first = first.standing();
-  const int at_last = at_first == 0 ? 0 : last.standing();
+  const int at_first = first.still_lines();
+  const int at_last = at_first == 0 ? 0 : last.still_lines();
   const int fewer = std::min(at_first, at_last);
   const int blocks = std::max(at_first, at_last) + 1;
   const bool alike = fewer > 0 && blocks <= fewer + 2;

@@ -61,7 +61,7 @@ constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 /// A block that stands out moves if this many around it stand out, too: errors are seldom adjacent.
 constexpr int kMinNeighbours = 3;
 
-/// How much a block must have stood out in the last frames, 0 … 1, see remember_what_stood_out():
+/// How much a block must have stood out in the last frames, 0 … 1, see store_stood_out():
 /// in two of them to need only one moving neighbour, in four of them to need none.
 constexpr float kLastingBesideOne = 0.5f;
 constexpr float kLastingAlone = 0.8f;
@@ -97,8 +97,8 @@ float least_worse(const BlockField& field, const MotionBlock& block) {
 }
 
 /// Whether the pixels of a block separate its motion from the background's without any texture.
-bool pixels_tell(const BlockField& field, size_t index, const RelativeBlock& relative,
-                 bool expected) {
+bool pixels_show_motion(const BlockField& field, size_t index, const RelativeBlock& relative,
+                        bool expected) {
   // Both motions are accurate to half a pixel.
   if (std::hypot(relative.moved_px.x(), relative.moved_px.y()) < kMaxOff_px / 2) return false;
   const float least =
@@ -178,7 +178,7 @@ void MovingBlocks::compare(const BlockField& field, const Background& background
     relative.background_px = background.model.displacement_px(there_px).cast<float>();
     relative.moved_px = block.moved_px - relative.background_px;
     relative.shows_motion =
-        block.has_texture() || pixels_tell(field, i, relative, is_expected(expected, i));
+        block.has_texture() || pixels_show_motion(field, i, relative, is_expected(expected, i));
     // If less of the block was in the picture before, the camera has just brought it into view.
     relative.was_outside = static_cast<double>(seen_before(field, i, relative)) < kSeenBefore;
   }
@@ -217,8 +217,8 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   return static_cast<float>(*worse) >= (expected || is_slow ? 0 : least_worse(field, block));
 }
 
-void MovingBlocks::leave_out_burned_in(const BlockField& field,
-                                       const std::vector<uint8_t>& expected) {
+void MovingBlocks::exclude_burned_in(const BlockField& field,
+                                     const std::vector<uint8_t>& expected) {
   burned_in_.begin(field, !camera_is_still_);
   for (size_t i = 0; i < stands_out_.size(); ++i) {
     if (stands_out_[i] == 0) continue;
@@ -233,7 +233,7 @@ void MovingBlocks::leave_out_burned_in(const BlockField& field,
   }
 }
 
-void MovingBlocks::judge_with_neighbours(const BlockGrid& grid) {
+void MovingBlocks::confirm_with_neighbours(const BlockGrid& grid) {
   for (size_t i = 0; i < relative_.size(); ++i) {
     RelativeBlock& block = relative_[i];
     block.lasts = block.moves = false;
@@ -249,7 +249,7 @@ void MovingBlocks::judge_with_neighbours(const BlockGrid& grid) {
 
 /// Updates how often each block has recently stood out with the same motion: that of glitter
 /// changes each time. A small object may have moved on to the next block.
-void MovingBlocks::remember_what_stood_out(const BlockField& field) {
+void MovingBlocks::store_stood_out(const BlockField& field) {
   const size_t n = stands_out_.size();
   stood_out_before_.swap(stood_out_);
   if (stood_out_before_.size() != n) stood_out_before_.assign(n, {});
@@ -292,9 +292,9 @@ const std::vector<RelativeBlock>& MovingBlocks::find(const BlockField& field,
   for (size_t i = 0; i < stands_out_.size(); ++i) {
     stands_out_[i] = stands_out(field, i, noise_px2, is_expected(expected, i));
   }
-  leave_out_burned_in(field, expected);
-  remember_what_stood_out(field);
-  judge_with_neighbours(field.grid());
+  exclude_burned_in(field, expected);
+  store_stood_out(field);
+  confirm_with_neighbours(field.grid());
   if (!background.is_known) {
     for (RelativeBlock& block : relative_) block.moves = false;
   }

@@ -94,9 +94,9 @@ class MovingBlocks {
   void measure_parallax(const BlockField& field);
   bool stands_out(const BlockField& field, size_t index, const Eigen::Matrix2f& noise_px2,
                   bool expected) const;
-  void leave_out_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
-  void judge_with_neighbours(const BlockGrid& grid);
-  void remember_what_stood_out(const BlockField& field);
+  void exclude_burned_in(const BlockField& field, const std::vector<uint8_t>& expected);
+  void confirm_with_neighbours(const BlockGrid& grid);
+  void store_stood_out(const BlockField& field);
   void remember_motion(const BlockField& field);
 
   std::vector<RelativeBlock> relative_;

@@ -23,7 +23,7 @@ double growth(double prominence, double of_followed, double followed_s) {
 constexpr double kSamePlace = 0.5;
 
 /// Whether an object is where an invisible one would be, and so is a part of the same object.
-bool takes_place(const MovingObject& object, const MovingObject& hidden) {
+bool has_replaced(const MovingObject& object, const MovingObject& hidden) {
   return area_px2(object.box_px().intersection(hidden.box_px())) >
          kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
 }
@@ -82,7 +82,7 @@ const MovingObject* DominantObject::choose(const std::vector<MovingObject>& obje
     const double reason_s = std::max(least_s, std::max(least_s, reason_before(object.id)) + more_s);
     next_.push_back({object.id, reason_s});
     const bool continues =
-        followed && followed->points == 0 && (takes_place(object, *followed) || may_be_it(object));
+        followed && followed->points == 0 && (has_replaced(object, *followed) || may_be_it(object));
     const bool may_take_over = is_free || continues || reason_s > enough_s;
     if (object.prominence == 0 || !may_take_over) continue;
     if (!best || object.prominence > best->prominence) best = &object;

@@ -53,7 +53,7 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
 
 /// Chooses a similarity if its cost is below that of a translation by twice the difference of their
 /// penalties in the GRIC: twice, so that the choice does not flicker.
-void ObjectMeter::climb(MotionModel& motion) {
+void ObjectMeter::choose_similarity(MotionModel& motion) {
   if (motion.kind == ModelKind::kSimilarity) return;
   const auto similarity = fit_robustly(ModelKind::kSimilarity, motion, collected_);
   const double price = 4 * std::log(4 * static_cast<double>(collected_.points.size()));
@@ -70,12 +70,12 @@ ObjectMotion ObjectMeter::measure(uint32_t key, const Region& region,
   found.model.shift_px = region.relative_px;
   found.relative_px = region.relative_px;
   collect_blocks(key, evidence);
-  climb(found.model);
+  choose_similarity(found.model);
   found.points = static_cast<int>(collected_.points.size());
   if (collect_windows(key, found.model, evidence)) {
     const auto refined = fit_robustly(found.model.kind, found.model, collected_);
     if (refined) found.model = *refined;
-    climb(found.model);
+    choose_similarity(found.model);
     found.points = static_cast<int>(collected_.points.size());
     found.relative_px = found.model.displacement_px(region.position_px - region.relative_px);
   }

@@ -47,7 +47,7 @@ class ObjectMeter {
  private:
   void collect_blocks(uint32_t key, const ObjectEvidence& evidence);
   bool collect_windows(uint32_t key, const MotionModel& motion, const ObjectEvidence& evidence);
-  void climb(MotionModel& motion);
+  void choose_similarity(MotionModel& motion);
 
   WeightedDisplacements collected_;
 };

@@ -58,7 +58,7 @@ Track* ObjectTracker::expected_at(const Region& region, const FieldInFrame& fram
   Track* best = nullptr;
   double nearest_px = 0;
   for (Track& track : tracks_) {
-    if (track.is_seen() || !track.is_born()) continue;
+    if (track.is_seen() || !track.is_confirmed()) continue;
     const Eigen::Vector2d sides_px = track.expected.sides_px + region.high_px - region.low_px;
     const Eigen::Vector2d apart_px = (track.expected.position_px - region.position_px).cwiseAbs();
     const bool goes_on = track.moves_like(region, frame.interval_s) &&
@@ -101,17 +101,17 @@ std::optional<int> ObjectTracker::resting_blocks(const Track& track,
 bool ObjectTracker::is_enough(const Region& region, const Track* track,
                               const BlockField& field) const {
   if (region.blocks >= kMinBlocks) return true;
-  if (!track || !track->is_born()) return region.lasts;
+  if (!track || !track->is_confirmed()) return region.lasts;
   const bool is_rim = track->is_rim(region) && resting_blocks(*track, field);
   return !track->is_layer && !is_rim;
 }
 
 /// Assigns each region to an object. The largest of several regions of an object counts.
-void ObjectTracker::claim(const FieldInFrame& frame) {
+void ObjectTracker::assign_regions(const FieldInFrame& frame) {
   const std::vector<Region>& regions = finder_.find(frame.field, *relative_);
   region_keys_.assign(regions.size(), 0);
   for (Track& track : tracks_) {
-    if (track.is_seen()) track.turn(Track::State::kHidden);
+    if (track.is_seen()) track.set_state(Track::State::kHidden);
   }
   order_.resize(regions.size());
   std::iota(order_.begin(), order_.end(), size_t{0});
@@ -127,7 +127,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       }
       track = nullptr;
     }
-    if (!track || !track->is_born()) {
+    if (!track || !track->is_confirmed()) {
       Track* back = region.blocks < kMinBlocks ? nullptr : expected_at(region, frame);
       // Noise does not move twice in the same way.
       if (back || (track && !track->moves_like(region, frame.interval_s))) track = back;
@@ -137,7 +137,7 @@ void ObjectTracker::claim(const FieldInFrame& frame) {
       region_keys_[k] = create(region);
       continue;
     }
-    track->turn(Track::State::kSeen);
+    track->set_state(Track::State::kSeen);
     track->region = region;
     region_keys_[k] = track->key;
   }
@@ -163,7 +163,7 @@ ObjectMotion ObjectTracker::measure(Track& track, const FieldInFrame& frame) {
   track.region.relative_px = found.relative_px;
   object.points = found.points;
   object.model = found.model.kind;
-  turn(track, found, frame);
+  update_rotation(track, found, frame);
   return found;
 }
 
@@ -173,7 +173,7 @@ void ObjectTracker::choose_turned(uint32_t felt) {
   felt_key_ = 0;
   uint32_t first = 0, next = 0;
   for (const Track& track : tracks_) {
-    if (!track.is_seen() || !track.is_born() || track.is_layer) continue;
+    if (!track.is_seen() || !track.is_confirmed() || track.is_layer) continue;
     if (felt != 0 && track.object.id == felt) {
       felt_key_ = track.key;
       continue;
@@ -184,10 +184,11 @@ void ObjectTracker::choose_turned(uint32_t felt) {
   turned_key_ = next != 0 ? next : first;
 }
 
-/// Measures rotation and growth, unless the object cannot be felt: it is not born yet, or is a
+/// Measures rotation and growth, unless the object cannot be felt: it is not confirmed yet, or is a
 /// layer of the scene.
-void ObjectTracker::turn(Track& track, const ObjectMotion& found, const FieldInFrame& frame) {
-  if (!track.is_born() || track.is_layer) return track.turn_unseen(frame.interval_s);
+void ObjectTracker::update_rotation(Track& track, const ObjectMotion& found,
+                                    const FieldInFrame& frame) {
+  if (!track.is_confirmed() || track.is_layer) return track.miss_rotation(frame.interval_s);
   if (track.key != felt_key_ && track.key != turned_key_) return;
   const Turn as_before{track.roll.expected(frame.interval_s),
                        track.growth.expected(frame.interval_s)};
@@ -239,7 +240,7 @@ void ObjectTracker::observe(Track& track, const FieldInFrame& frame) {
   track.velocity_px_s += newest * (velocity_px_s - track.velocity_px_s);
   const double late_px_s = (velocity_px_s - track.velocity_px_s).norm();
   track.expect(frame.interval_s);
-  track.blocks_seen += std::min(track.region.blocks, Track::kBornAfterBlocks - 1);
+  track.blocks_seen += std::min(track.region.blocks, Track::kConfirmBlocks - 1);
   track.object.has_left = false;
   if (is_new) {
     track.low_px = track.region.low_px;
@@ -256,12 +257,12 @@ void ObjectTracker::observe(Track& track, const FieldInFrame& frame) {
   track.is_proven |= salience(track.region, track.evidence, camera_moves_, false) > 0;
   object.prominence = salience(track.region, track.evidence, camera_moves_, track.is_proven);
   track.is_layer = object.prominence == 0;
-  if (!track.is_born() || track.is_layer) return;
+  if (!track.is_confirmed() || track.is_layer) return;
   const double most_px = bound_.px(track.key, track.region, found, evidence_in(frame));
   object.error_px_s = frame.scale * (most_px / frame.interval_s + late_px_s);
 }
 
-void ObjectTracker::stay(Track& track, const FieldInFrame& frame) {
+void ObjectTracker::observe_rest(Track& track, const FieldInFrame& frame) {
   for (size_t i = 0; i < owners_before_.size(); ++i) {
     const bool is_its = owners_before_[i] == track.key && finder_.labels()[i] == kNoRegion;
     if (is_its) owners_[i] = track.key;
@@ -278,17 +279,17 @@ void ObjectTracker::miss(Track& track, const FieldInFrame& frame) {
   if (track.since_s == 0) object.has_left = track.has_left(frame.interval_s);
   object.points = background_->is_known ? resting_blocks(track, frame.field).value_or(0) : 0;
   if (object.points > 0) {
-    track.turn(Track::State::kRests);
-    stay(track, frame);
+    track.set_state(Track::State::kRests);
+    observe_rest(track, frame);
   } else {
-    track.turn(Track::State::kHidden);
+    track.set_state(Track::State::kHidden);
   }
   track.since_s += frame.interval_s;
   track.extrapolate(frame.interval_s);
   track.region.position_px = track.expected.position_px;
   track.velocity_px_s = track.expected.velocity_px_s;
   track.move_box(frame.interval_s);
-  track.turn_unseen(frame.interval_s);
+  track.miss_rotation(frame.interval_s);
   object.prominence = 0;
   position(track, frame);
 }
@@ -307,7 +308,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     const uint32_t owner = owners_before_[i];
     expected_[i] =
         owner != 0 && std::any_of(tracks_.begin(), tracks_.end(), [&](const Track& track) {
-          return track.key == owner && track.is_born();
+          return track.key == owner && track.is_confirmed();
         });
   }
   background_ = &background;
@@ -317,7 +318,7 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
   if (moving_.burned_in().margins().have_changed()) {  // this changes what touches the border
     for (Track& track : tracks_) track.is_proven = false;
   }
-  claim(frame);
+  assign_regions(frame);
   for (size_t i = 0; i < n; ++i) {
     const int16_t label = finder_.labels()[i];
     owners_[i] = label == kNoRegion ? 0 : region_keys_[static_cast<size_t>(label)];
@@ -331,13 +332,13 @@ const std::vector<MovingObject>& ObjectTracker::update(const FieldInFrame& frame
     }
   }
   const auto is_over = [](const Track& track) {
-    return (!track.is_born() && !track.is_seen()) || track.since_s > kForgotten_s;
+    return (!track.is_confirmed() && !track.is_seen()) || track.since_s > kForgotten_s;
   };
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), is_over), tracks_.end());
 
   objects_.clear();
   for (Track& track : tracks_) {
-    if (!track.is_born() || track.is_layer) continue;
+    if (!track.is_confirmed() || track.is_layer) continue;
     if (track.object.id == 0) track.object.id = (*next_id_)++;
     objects_.push_back(track.object);
     if (track.state != Track::State::kHidden) continue;

@@ -42,7 +42,7 @@ struct Track {
 
   /// Total number of blocks with which an object must have been seen to exist: a small one must be
   /// seen more often. A single frame never suffices, because noise does not move alike twice.
-  static constexpr int kBornAfterBlocks = 7;
+  static constexpr int kConfirmBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
   /// How long an object may be invisible or at rest before it is dropped: longer than objects are
@@ -63,13 +63,13 @@ struct Track {
   State state = State::kSeen;
   double since_s = 0;  ///< how long it has been at rest or hidden
   LayerEvidence evidence;
-  int blocks_seen = 0;     ///< in all frames together, see kBornAfterBlocks
+  int blocks_seen = 0;     ///< in all frames together, see kConfirmBlocks
   bool is_proven = false;  ///< it was clearly no layer of the scene in one of its frames
   bool is_layer = false;   ///< looks more like a part of the scene than like an object
 
   bool is_seen() const { return state == State::kSeen; }
-  bool is_born() const { return blocks_seen >= kBornAfterBlocks; }
-  void turn(State next) {
+  bool is_confirmed() const { return blocks_seen >= kConfirmBlocks; }
+  void set_state(State next) {
     if (state != next) since_s = 0;
     state = next;
   }
@@ -86,11 +86,11 @@ struct Track {
   /// often in the next, the object moves unlike before and is invisible. Afterwards it is no
   /// faster, and not further away than it can have moved. The motion of errors and of layers
   /// changes like that, too. So the object must be no layer, and have been seen for kKnown times as
-  /// long as its birth took: the probability that errors move alike for so long is the kKnown-th
-  /// power of that of their birth.
+  /// long as its confirmation took: the probability that errors move alike for so long is the
+  /// kKnown-th power of that of their confirmation.
   bool has_bounced_to(const Region& other, double interval_s) const {
     constexpr int kKnown = 4;
-    if (!is_proven || is_layer || blocks_seen < kKnown * kBornAfterBlocks) return false;
+    if (!is_proven || is_layer || blocks_seen < kKnown * kConfirmBlocks) return false;
     constexpr double kMaxPictures = 2;  // that with the impact, and the next
     constexpr double kMaxError_px = kMaxOff_px;
     const double speed_px_s = expected.velocity_px_s.norm();
@@ -130,7 +130,7 @@ struct Track {
     draw(high_px, seen.high_px);
   }
   /// For a frame in which nothing shows how the object rotates and grows.
-  void turn_unseen(double interval_s) {
+  void miss_rotation(double interval_s) {
     roll.miss(interval_s);
     growth.miss(interval_s);
     object.roll_rad_s = object.growth_1_s = 0;
@@ -207,7 +207,7 @@ class ObjectTracker {
   static constexpr size_t kMaxObjects = 16;
 
  private:
-  void claim(const FieldInFrame& frame);
+  void assign_regions(const FieldInFrame& frame);
   Track* owner_of(int16_t region);
   Track* expected_at(const Region& region, const FieldInFrame& frame);
   bool is_enough(const Region& region, const Track* track, const BlockField& field) const;
@@ -215,14 +215,14 @@ class ObjectTracker {
   bool has_vanished(const Track& track, const FieldInFrame& frame) const;
   void observe(Track& track, const FieldInFrame& frame);
   std::optional<int> resting_blocks(const Track& track, const BlockField& field) const;
-  void stay(Track& track, const FieldInFrame& frame);
+  void observe_rest(Track& track, const FieldInFrame& frame);
   void miss(Track& track, const FieldInFrame& frame);
   ObjectEvidence evidence_in(const FieldInFrame& frame) const {
     return {frame.field, *relative_, owners_, frame.fine, *background_};
   }
   ObjectMotion measure(Track& track, const FieldInFrame& frame);
   void choose_turned(uint32_t felt);
-  void turn(Track& track, const ObjectMotion& found, const FieldInFrame& frame);
+  void update_rotation(Track& track, const ObjectMotion& found, const FieldInFrame& frame);
   void position(Track& track, const FieldInFrame& frame) const;
   double noise_around(const Track& track);
 

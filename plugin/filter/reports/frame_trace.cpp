@@ -30,7 +30,7 @@ class JsonFields : public FieldSink {
   void end() override { group_ = nullptr; }
 
  private:
-  void take(const Field& field, const FieldValue& value) override {
+  void write(const Field& field, const FieldValue& value) override {
     Json& json = (group_ ? json_[group_] : json_)[field.column()];
     if (const auto* const scalar = std::get_if<Scalar>(&value)) {
       json = json_of(*scalar);
