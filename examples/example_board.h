@@ -42,7 +42,7 @@ class EmulatedExample final : public emulated::Board {
   void receive(ByteView bytes) noexcept override {
     std::array<int, kMaxStrings> digits{};
     for (size_t i = 0; i < digits.size(); ++i) digits[i] = bytes.u16(2 * i);
-    motors_->put_out(digits);
+    motors_->set_outputs(digits);
     const std::array<int32_t, kMaxStrings> counts = motors_->counts();
     for (size_t i = 0; i < counts.size(); ++i) {
       MutableBytes(answer_).put_u16(2 * i, static_cast<uint16_t>(counts[i]));

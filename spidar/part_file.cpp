@@ -198,7 +198,7 @@ bool is_as_written(const std::string& path, const std::string& maker) {
 }
 
 PartFile::PartFile(const fs::path& target, const Replaces& replaces) : PartFile() {
-  if (!take(target, replaces)) {
+  if (!try_claim(target, replaces)) {
     throw std::runtime_error(target.string() + ": another process is writing it");
   }
   if (may_replace()) return;
@@ -226,7 +226,7 @@ PartFile::~PartFile() {
 
 std::unique_ptr<PartFile> PartFile::claim(const fs::path& target, const Replaces& replaces) {
   std::unique_ptr<PartFile> file(new PartFile);
-  if (!file->take(target, replaces)) file.reset();
+  if (!file->try_claim(target, replaces)) file.reset();
   return file;
 }
 
@@ -237,7 +237,7 @@ bool PartFile::may_replace() const {
   return !replaces_.maker.empty() && is_as_written(place_, replaces_.maker);
 }
 
-bool PartFile::take(const fs::path& target, const Replaces& replaces) {
+bool PartFile::try_claim(const fs::path& target, const Replaces& replaces) {
   std::error_code none;
   if (fs::exists(target, none) && !fs::is_regular_file(target, none)) {
     throw std::runtime_error(target.string() + ": cannot be written: it is not a regular file");

@@ -67,7 +67,7 @@ class PartFile {
 
  private:
   PartFile() = default;
-  bool take(const std::filesystem::path& target, const Replaces& replaces);
+  bool try_claim(const std::filesystem::path& target, const Replaces& replaces);
   bool may_replace() const;
 
   std::string path_, target_;

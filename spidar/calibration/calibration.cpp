@@ -50,7 +50,7 @@ struct Fit {
 
   int redundant() const { return model.strings() - 6; }
 
-  void look_at_errors(double floor_m) {
+  void update_weights(double floor_m) {
     errors_m.resize(static_cast<Eigen::Index>(lengths_m.size()), model.strings());
     for (size_t k = 0; k < lengths_m.size(); ++k) {
       errors_m.row(static_cast<Eigen::Index>(k)) =
@@ -71,11 +71,11 @@ struct Fit {
 
 /// Adapts the corner of Huber's function to the measured noise.
 void refine(double floor_m, Fit& fit) {
-  fit.look_at_errors(floor_m);
+  fit.update_weights(floor_m);
   for (int i = 0; i < kMaxRescalings; ++i) {
     const double before_m = fit.sigma_m;
     adjust(fit.model, fit.lengths_m, before_m, kMaxFitIterations, fit.bundle);
-    fit.look_at_errors(floor_m);
+    fit.update_weights(floor_m);
     if (std::abs(fit.sigma_m - before_m) <= kSameSigma * before_m) break;
   }
 }

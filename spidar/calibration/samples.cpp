@@ -106,8 +106,8 @@ CountSamples record_counts(StringDevice& device, const Profile& profile, double 
   int64_t tick = -kRise;  // the next one
   selftest::StringHold hold(device, profile,
                             [&] { return next_tick(static_cast<double>(tick++) * kTick_s); });
-  if (hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s)) {
-    hold.stay(seconds, [&](const DeviceReading& reading) {
+  if (hold.ramp_to(profile.min_tension_N(), HapticLoop::kEnergise_s)) {
+    hold.hold_for(seconds, [&](const DeviceReading& reading) {
       if ((tick - 1) % period == 0) kept.push_back(reading);
       return true;
     });

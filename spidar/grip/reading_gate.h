@@ -29,36 +29,37 @@ class ReadingGate {
   explicit ReadingGate(double error_m) noexcept : error_m_(error_m) {}
 
   void reset() noexcept {
-    taken_.clear();
+    accepted_.clear();
     left_out_ = false;
   }
 
   /// Whether the reading counts. `unreliable` is the index of a value that is not judged; −1: none.
-  bool take(const Values& now_m, int64_t read_ns, int unreliable = -1) noexcept {
+  bool accept(const Values& now_m, int64_t read_ns, int unreliable = -1) noexcept {
     const bool plausible = is_plausible(now_m, read_ns, unreliable);
     left_out_ = !plausible && !left_out_;
     if (left_out_) return false;
-    if (!plausible) taken_.clear();  // the earlier readings do not lead to this one
+    if (!plausible) accepted_.clear();  // the earlier readings do not lead to this one
     // A reading in a burst replaces the one before, because their difference is mostly error.
-    if (taken_.size() > 1 && read_ns - taken_[1].read_ns < kApart_ns) {
-      taken_[0] = {now_m, read_ns};
+    if (accepted_.size() > 1 && read_ns - accepted_[1].read_ns < kApart_ns) {
+      accepted_[0] = {now_m, read_ns};
     } else {
-      taken_.add({now_m, read_ns});
+      accepted_.add({now_m, read_ns});
     }
     return true;
   }
 
  private:
-  struct Taken {
+  struct Accepted {
     Values m;
     int64_t read_ns;
   };
   static constexpr int64_t kApart_ns = 500'000;
 
   bool is_plausible(const Values& now_m, int64_t read_ns, int unreliable) const noexcept {
-    if (taken_.size() < 3) return true;
-    const Taken& last = taken_[0];
-    const Taken& before = last.read_ns - taken_[1].read_ns < kApart_ns ? taken_[2] : taken_[1];
+    if (accepted_.size() < 3) return true;
+    const Accepted& last = accepted_[0];
+    const Accepted& before =
+        last.read_ns - accepted_[1].read_ns < kApart_ns ? accepted_[2] : accepted_[1];
     const double passed_s = 1e-9 * static_cast<double>(last.read_ns - before.read_ns);
     const double ahead_s = 1e-9 * static_cast<double>(read_ns - last.read_ns);
     if (!(passed_s > 0)) return true;
@@ -75,7 +76,7 @@ class ReadingGate {
   }
 
   const double error_m_;
-  History<Taken, 3> taken_;
+  History<Accepted, 3> accepted_;
   bool left_out_ = false;  ///< whether the last reading was left out
 };
 

@@ -75,7 +75,7 @@ void GripWatch::update(const DeviceReading& reading, const GripCommand& command)
   const int64_t read_ns = PoseTrust::time_of(reading.read_ns, command.now_ns);
   const bool frozen = is_frozen(reading, command);
   const StringVector lengths_m = encoders_.lengths_m(reading.count);
-  if (!gate_.take(lengths_m, read_ns, faulty_string_)) {
+  if (!gate_.accept(lengths_m, read_ns, faulty_string_)) {
     ++pose_errors_;
     return trust_.fail(PoseFault::kJump);
   }

@@ -36,7 +36,7 @@ void TensionChain::reset() noexcept {
 }
 
 StringVector TensionChain::strings(const StringVector&, const Tick& tick) noexcept {
-  command_.leave_out(tick.left_out);
+  command_.exclude(tick.left_out);
   if (tick.command.fresh) return command_.solve(tick.W, tick.command.wrench, heat_.limit_N());
   // Near the end of the ramp to zero the wrench may still be large. Solving for that wrench would
   // leave the tensions too little time to fall.

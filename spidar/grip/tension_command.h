@@ -162,7 +162,7 @@ class TensionCommand {
   /// fraction of the wrench that is used grows, the tension of that string decreases from the
   /// minimum to zero. At rest the string keeps its minimum tension like the others, because it may
   /// not really be broken, and then seven strings would pull the grip aside. −1: none.
-  void leave_out(int string) noexcept { left_out_ = string; }
+  void exclude(int string) noexcept { left_out_ = string; }
 
   /// The fraction of the wrench that the last solve() used. It is below 1 if a string is left out
   /// or limited, because the other strings alone would give a different wrench.

@@ -25,8 +25,8 @@ namespace spidar {
 namespace {
 
 /// A guardian answers as soon as it runs. Making a scope takes some tens of milliseconds.
-constexpr int kPatience_s = 5;
-constexpr int kScopePatience_s = 2;
+constexpr int kAnswerTimeout_s = 5;
+constexpr int kScopeTimeout_s = 2;
 
 std::string program() {
   const char* named = secure_getenv("SPIDAR_GUARDIAN");
@@ -54,14 +54,14 @@ int64_t seconds_from_now_ns(int seconds) {
   return monotonic_now_ns() + seconds * kSecond_ns;
 }
 
-void set_patience(int socket, int seconds) {
+void set_socket_timeout(int socket, int seconds) {
   const timeval patience{seconds, 0};
   setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
   setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
 }
 
 /// Sends the will, the device's file, and a descriptor that shows the end of this process.
-bool send_will(int socket, const LastWill& will, int64_t until_ns) {
+bool send_last_will(int socket, const LastWill& will, int64_t until_ns) {
   const int self = static_cast<int>(syscall(SYS_pidfd_open, getpid(), 0));
   if (self < 0) return false;
   const std::array<int, 2> files{will.file, self};
@@ -93,10 +93,10 @@ Guardian::Guardian(const std::string& device, const LastWill& will) : owner_(get
   const std::string path = program();
   const bool service = is_socket(path);
   const std::vector<std::string> scoped = in_a_scope(path);
-  if (!service && !scoped.empty() && start(scoped, will, kScopePatience_s)) return;
+  if (!service && !scoped.empty() && start(scoped, will, kScopeTimeout_s)) return;
   errno = 0;
-  const bool works =
-      service ? connect_to(path) && greet(will, kPatience_s) : start({path}, will, kPatience_s);
+  const bool works = service ? connect_to(path) && greet(will, kAnswerTimeout_s)
+                             : start({path}, will, kAnswerTimeout_s);
   if (works) return;
   const std::string why =
       errno != 0 ? std::strerror(errno) : "does not answer, it may be of another version";
@@ -106,8 +106,7 @@ Guardian::Guardian(const std::string& device, const LastWill& will) : owner_(get
 }
 
 /// Returns false, and sets errno where there is a reason, when the guardian does not work.
-bool Guardian::start(const std::vector<std::string>& command, const LastWill& will,
-                     int patience_s) {
+bool Guardian::start(const std::vector<std::string>& command, const LastWill& will, int timeout_s) {
   std::array<int, 2> ends{};
   if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) return false;
   socket_ = ends[0];
@@ -118,7 +117,7 @@ bool Guardian::start(const std::vector<std::string>& command, const LastWill& wi
   process_ = start_child(command[0], command, files, POSIX_SPAWN_SETSID);
   const int error = errno;
   ::close(ends[1]);
-  if (process_ > 0) return greet(will, patience_s);
+  if (process_ > 0) return greet(will, timeout_s);
   ::close(socket_);
   socket_ = -1;
   errno = error;
@@ -132,22 +131,22 @@ bool Guardian::connect_to(const std::string& path) {
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   socket_ = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
   if (socket_ < 0) return false;
-  set_patience(socket_, kPatience_s);  // a service that accepts nobody has a full queue
-  return uninterrupted_until(seconds_from_now_ns(kPatience_s), [&] {
+  set_socket_timeout(socket_, kAnswerTimeout_s);  // a service that accepts nobody has a full queue
+  return uninterrupted_until(seconds_from_now_ns(kAnswerTimeout_s), [&] {
            return connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address);
          }) == 0;
 }
 
 /// Gives the guardian its will and waits for its answer.
-bool Guardian::greet(const LastWill& will, int patience_s) {
-  set_patience(socket_, patience_s);
-  const int64_t until_ns = seconds_from_now_ns(patience_s);
+bool Guardian::greet(const LastWill& will, int timeout_s) {
+  set_socket_timeout(socket_, timeout_s);
+  const int64_t until_ns = seconds_from_now_ns(timeout_s);
   char answer = 0;
   errno = 0;
   const auto is_answered = [&] {
     return uninterrupted_until(until_ns, [&] { return recv(socket_, &answer, 1, 0); }) == 1;
   };
-  if (send_will(socket_, will, until_ns) && is_answered()) return true;
+  if (send_last_will(socket_, will, until_ns) && is_answered()) return true;
   // The started program did not receive the will, or does not answer.
   const int error =
       errno == EAGAIN || errno == EINTR || errno == EPIPE || errno == ECONNRESET ? 0 : errno;
@@ -190,9 +189,9 @@ bool Guardian::watch(bool pulling) noexcept {
   }
   if (was_suspended_ || got == 0 || errno != EAGAIN) return false;
   if (silent_ns_ > kAnswer_ms * kMillisecond_ns) return false;
-  if (pulling == pulling_ && now_ns - said_ns_ < kBeat_ns) return true;
+  if (pulling == pulling_ && now_ns - sent_ns_ < kBeat_ns) return true;
   pulling_ = pulling;
-  said_ns_ = now_ns;
+  sent_ns_ = now_ns;
   return send_heartbeat(pulling ? HostHeartbeat::kPulling : HostHeartbeat::kResting);
 }
 
@@ -206,7 +205,7 @@ void Guardian::finish(End end) noexcept {
   // A forked child only closes its copy of the socket.
   if (getpid() == owner_) {
     send_signal(SIGCONT);  // it may have been stopped
-    set_patience(socket_, kEnd_s);
+    set_socket_timeout(socket_, kEnd_s);
     // close() would not suffice, because a forked child may hold the socket, too.
     shutdown(socket_, SHUT_WR);
     char answer = 0;

@@ -129,8 +129,8 @@ class Guardian {
  private:
   enum class End { kWait, kLeave };
 
-  bool start(const std::vector<std::string>& command, const LastWill& will, int patience_s);
-  bool greet(const LastWill& will, int patience_s);
+  bool start(const std::vector<std::string>& command, const LastWill& will, int timeout_s);
+  bool greet(const LastWill& will, int timeout_s);
   bool connect_to(const std::string& path);
   bool send_heartbeat(HostHeartbeat heartbeat) noexcept;
   void send_signal(int number) const noexcept;
@@ -141,7 +141,7 @@ class Guardian {
   pid_t owner_ = -1;
   bool pulling_ = false;  ///< as last reported to the guardian
   bool was_suspended_ = false;
-  int64_t said_ns_ = 0;
+  int64_t sent_ns_ = 0;
   int64_t watched_ns_ = 0;
   int64_t silent_ns_ = 0;  ///< time since the last proof that the guardian works
 };

@@ -227,7 +227,7 @@ bool watch(int host, LastWill& will, bool& pulled) {
       if (heartbeat == HostHeartbeat::kDismissed) return false;
       pulling = heartbeat == HostHeartbeat::kPulling;
       pulled |= pulling;
-      inhibitor.hold(pulling);
+      inhibitor.inhibit(pulling);
     }
     answer_host(zeroed ? GuardianAnswer::kZeroed : GuardianAnswer::kWatching);
   }
@@ -235,7 +235,7 @@ bool watch(int host, LastWill& will, bool& pulled) {
 
 /// The guardian must act in time even when the machine is busy or short of memory. If a privilege
 /// is missing, the guardian does without it. Its children have the usual priority.
-void ask_for_promptness() {
+void set_realtime_priority() {
   sched_param parameters{};
   parameters.sched_priority = sched_get_priority_min(SCHED_FIFO);
   sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters);
@@ -259,7 +259,7 @@ int main() {
     return 2;
   }
   if (chdir("/") != 0) return 1;
-  ask_for_promptness();
+  set_realtime_priority();
   if (!answer_host(GuardianAnswer::kWatching)) return 1;
   bool pulled = false;
   if (watch(host, will, pulled) && carry_out(will) && pulled) return_settings(will);

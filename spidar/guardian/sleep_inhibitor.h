@@ -29,11 +29,11 @@ inline std::string systemd_program(const char* name) {
 class SleepInhibitor {
  public:
   SleepInhibitor() = default;
-  ~SleepInhibitor() { hold(false); }
+  ~SleepInhibitor() { inhibit(false); }
   SleepInhibitor(const SleepInhibitor&) = delete;
   SleepInhibitor& operator=(const SleepInhibitor&) = delete;
 
-  void hold(bool wanted) noexcept {
+  void inhibit(bool wanted) noexcept {
     while (process_ > 0 && waitpid(process_, nullptr, WNOHANG) != 0) process_ = -1;
     if (wanted == (pipe_ >= 0)) return;
     if (wanted) return start();

@@ -92,8 +92,8 @@ class Board : public BoardOf<MotorVolts, DeviceReading> {
 
  protected:
   /// Updates the counts with the counters of an answer.
-  LinkFault take(const std::array<uint32_t, kMaxStrings>& counters,
-                 DeviceReading& reading) noexcept {
+  LinkFault update_counts(const std::array<uint32_t, kMaxStrings>& counters,
+                          DeviceReading& reading) noexcept {
     if (!counts_.update(counters, monotonic_now_ns())) return LinkFault::kCounterJump;
     reading.count = counts_.counts();
     return LinkFault::kNone;

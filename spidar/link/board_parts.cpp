@@ -80,7 +80,7 @@ LinkFault StringBoard::cycle(const MotorVolts& volts, DeviceReading& reading,
   for (size_t i = 0; i < digits.size(); ++i) digits[i] = dac_.digit(volts.volt[i]);
   Answer now;
   LinkFault fault = exchange(digits, now, deadline_ns);
-  if (fault == LinkFault::kNone) fault = take(now.counter, reading);
+  if (fault == LinkFault::kNone) fault = update_counts(now.counter, reading);
   if (fault == LinkFault::kNone) reading.inputs = now.inputs;
   return fault;
 }

@@ -23,7 +23,7 @@ class Motors {
  public:
   virtual ~Motors() = default;
   /// Called when the board has set the D/A converters to these digits.
-  virtual void put_out(const std::array<int, kMaxStrings>&) noexcept {}
+  virtual void set_outputs(const std::array<int, kMaxStrings>&) noexcept {}
   /// Returns counts as the host should receive them.
   virtual std::array<int32_t, kMaxStrings> counts() noexcept { return {}; }
   /// Returns 16 inputs; bits 4–7 are the rotary ID switch.
@@ -110,15 +110,15 @@ class Transport final : public spidar::Transport {
     if (fault == LinkFault::kStall || fault == LinkFault::kTimeout) return fault;
     return board_->control(request) ? LinkFault::kNone : LinkFault::kStall;
   }
-  void recover() noexcept override { drop_unasked(0); }
+  void recover() noexcept override { drop_stale_data(0); }
   std::optional<LastWill> last_will() const override { return std::nullopt; }
   void close() noexcept override { open_ = false; }
 
  private:
-  Unasked drop_unasked(int64_t) noexcept override {
+  StaleData drop_stale_data(int64_t) noexcept override {
     std::array<uint8_t, 512> old{};
-    Unasked result = Unasked::kNone;
-    while (board_->reply(old) > 0) result = Unasked::kDropped;
+    StaleData result = StaleData::kNone;
+    while (board_->reply(old) > 0) result = StaleData::kDropped;
     return result;
   }
 

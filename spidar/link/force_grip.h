@@ -84,7 +84,7 @@ class ForceGrip final : public Grip {
     const int64_t read_ns = PoseTrust::time_of(answer.read_ns, command.now_ns);
     const PoseFault fault = judge(answer, read_ns);
     const bool known = fault == PoseFault::kNone || fault == PoseFault::kJump;
-    if (traits_.can_fly && known && !gate_.take(answer.position_m, read_ns)) {
+    if (traits_.can_fly && known && !gate_.accept(answer.position_m, read_ns)) {
       ++reading_.pose_errors;
       return trust_.fail(PoseFault::kJump);
     }

@@ -135,7 +135,7 @@ void LinkThread<BoardType>::run() noexcept {
     if (sem_wait(&requested_) != 0) continue;
     Request request;
     if (stop_ || !requests_.pop(request)) continue;
-    const Reply reply = answer(request);
+    const Reply reply = handle_request(request);
     // The capacity of the queue is one reply more than there can be requests.
     replies_.push(reply);
     sem_post(&replied_);
@@ -158,7 +158,7 @@ LinkFault LinkThread<BoardType>::why_unguarded() const noexcept {
 }
 
 template <typename BoardType>
-typename LinkThread<BoardType>::Reply LinkThread<BoardType>::answer(
+typename LinkThread<BoardType>::Reply LinkThread<BoardType>::handle_request(
     const Request& request) noexcept {
   Reply reply;
   reply.number = request.number;
@@ -173,7 +173,7 @@ typename LinkThread<BoardType>::Reply LinkThread<BoardType>::answer(
   // output after a guardian had sent zeros.
   if (guarded(pulling_)) return reply;
   unguarded_ = reply.fault = why_unguarded();
-  put_out_zero();
+  send_zeros();
   count(unguarded_);
   return reply;
 }
@@ -206,7 +206,8 @@ LinkFault LinkThread<BoardType>::exchange(const Output& output, Reading& reading
   if (!open_) return LinkFault::kGone;
   last_ = output;
   const Request request{++number_, output};
-  const std::optional<Reply> reply = settings_.threaded ? ask(request) : answer(request);
+  const std::optional<Reply> reply =
+      settings_.threaded ? exchange_in_thread(request) : handle_request(request);
   if (!reply) return LinkFault::kTimeout;
   if (reply->fault == LinkFault::kNone) reading = reply->reading;
   return reply->fault;
@@ -216,7 +217,7 @@ LinkFault LinkThread<BoardType>::exchange(const Output& output, Reading& reading
 /// Replies to earlier requests may come first. Returns the newest reply with a reading; when there
 /// is none, the newest with a fault, or nothing.
 template <typename BoardType>
-std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::ask(
+std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::exchange_in_thread(
     const Request& request) noexcept {
   // A full queue means that the board has not answered for some time; this output is dropped.
   if (requests_.push(request)) sem_post(&requested_);
@@ -233,7 +234,7 @@ std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::ask(
 }
 
 template <typename BoardType>
-bool LinkThread<BoardType>::bring_to_zero() noexcept {
+bool LinkThread<BoardType>::ramp_to_zero() noexcept {
   // Outputs that a guardian has set to zero must not come back.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
@@ -243,11 +244,11 @@ bool LinkThread<BoardType>::bring_to_zero() noexcept {
     board_->cycle(scaled(from, 1.0 * left / kRamp_ms), reading, now_ns + kTransfer_ns);
     if (settings_.threaded) sleep_until_ns(now_ns + kSecond_ns / 1000);
   }
-  return put_out_zero();
+  return send_zeros();
 }
 
 template <typename BoardType>
-bool LinkThread<BoardType>::put_out_zero() noexcept {
+bool LinkThread<BoardType>::send_zeros() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
@@ -267,7 +268,7 @@ void LinkThread<BoardType>::close() noexcept {
   if (!open_) return;
   open_ = false;
   stop();
-  const bool zero = bring_to_zero();
+  const bool zero = ramp_to_zero();
   if (unguarded_ != LinkFault::kNone) board_->expect_reopening();
   board_->close();
   // The guardians keep trying for a while, and stop at once when the board is gone.

@@ -75,14 +75,14 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   void start();
   void stop() noexcept;
   void run() noexcept;
-  std::optional<Reply> ask(const Request& request) noexcept;
-  Reply answer(const Request& request) noexcept;
+  std::optional<Reply> exchange_in_thread(const Request& request) noexcept;
+  Reply handle_request(const Request& request) noexcept;
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
   LinkFault why_unguarded() const noexcept;
-  /// Both return true if the motors have received their zeros; bring_to_zero() uses a ramp.
-  bool put_out_zero() noexcept;
-  bool bring_to_zero() noexcept;
+  /// Both return true if the motors have received their zeros; ramp_to_zero() uses a ramp.
+  bool send_zeros() noexcept;
+  bool ramp_to_zero() noexcept;
 
   const std::vector<std::unique_ptr<BoardType>> boards_;
   const std::function<BoardType&()> open_board_;

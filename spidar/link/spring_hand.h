@@ -15,12 +15,12 @@ namespace spidar::emulated {
 
 /// Passes a force to motors whose digits are the force in millinewtons and whose counts are the
 /// position in micrometres: right, up, towards the viewer.
-inline void put_out_N(Motors& motors, const Eigen::Vector3d& force_N) noexcept {
+inline void set_force_N(Motors& motors, const Eigen::Vector3d& force_N) noexcept {
   std::array<int, kMaxStrings> milli_N{};
   for (size_t i = 0; i < 3; ++i) {
     milli_N[i] = static_cast<int>(std::lround(1e3 * force_N[static_cast<Eigen::Index>(i)]));
   }
-  motors.put_out(milli_N);
+  motors.set_outputs(milli_N);
 }
 inline Eigen::Vector3d position_m(Motors& motors) noexcept {
   const std::array<int32_t, kMaxStrings> at_um = motors.counts();
@@ -28,12 +28,13 @@ inline Eigen::Vector3d position_m(Motors& motors) noexcept {
 }
 
 /// The hand that holds an emulated device which takes a force. A spring and a damper hold the grip
-/// at the centre, and the hand moves with the force, in the units of put_out_N() and position_m().
+/// at the centre, and the hand moves with the force, in the units of set_force_N() and
+/// position_m().
 class SpringHand final : public Motors {
  public:
   explicit SpringHand(uint16_t inputs = 0) noexcept : inputs_(inputs) {}
 
-  void put_out(const std::array<int, kMaxStrings>& milli_N) noexcept override {
+  void set_outputs(const std::array<int, kMaxStrings>& milli_N) noexcept override {
     force_N_ = 1e-3 * Eigen::Vector3d(milli_N[0], milli_N[1], milli_N[2]);
   }
   std::array<int32_t, kMaxStrings> counts() noexcept override {

@@ -192,7 +192,7 @@ void HapticLoop::touch(TickRecord& record, int64_t passed_ns) noexcept {
   if (mailbox == nullptr) return;
   if (!record.playing || !grip_->reading().knows_pose() ||
       closing_.load(std::memory_order_acquire)) {
-    touch_.rest(*mailbox);
+    touch_.tick_without_contact(*mailbox);
     return;
   }
   // max-force may be 0, but the contact needs a limit above that; the safety chain then lets

@@ -52,7 +52,7 @@ void StringHold::open() {
   device_.open();
 }
 
-LinkFault StringHold::put_out(const StringVector& tension_N) noexcept {
+LinkFault StringHold::send(const StringVector& tension_N) noexcept {
   const StringVector possible_N =
       tension_N.cwiseMax(StringVector::Zero()).cwiseMin(profile_.max_tension_N());
   return device_.exchange(to_volts(possible_N, profile_), reading_);
@@ -90,13 +90,13 @@ void ForceHold::open() {
 
 void ForceHold::release() {
   try {
-    go(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
+    ramp_to(Eigen::Vector3d::Zero(), HapticLoop::kRelease_s);
   } catch (const ProcessSuspended&) {
     // The motors are already at zero.
   }
 }
 
-LinkFault ForceHold::put_out(const Eigen::Vector3d& force_N) noexcept {
+LinkFault ForceHold::send(const Eigen::Vector3d& force_N) noexcept {
   command_.now_ns += kTick_ns;
   command_.wrench.force_N = force_N;
   return grip_.exchange(command_);

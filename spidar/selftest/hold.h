@@ -61,7 +61,7 @@ template <typename Value, typename Reading>
 class Hold {
  public:
   /// Changes to this value within the given time. Returns false when ended early.
-  bool go(const Value& value, double seconds) {
+  bool ramp_to(const Value& value, double seconds) {
     const Value from = value_;
     const auto ticks = static_cast<int64_t>(std::max(std::ceil(seconds / kTick_s), 1.0));
     for (int64_t tick = 1; tick <= ticks; ++tick) {
@@ -75,7 +75,7 @@ class Hold {
 
   /// Holds the value for the given time, which may be infinite. Calls `seen` with every reading,
   /// and ends when `seen` returns false. Returns false when the pace ended it early.
-  bool stay(double seconds, const std::function<bool(const Reading&)>& seen = {}) {
+  bool hold_for(double seconds, const std::function<bool(const Reading&)>& seen = {}) {
     // Half a tick allows for the rounding errors of a long sum.
     for (double left_s = seconds; left_s > kTick_s / 2; left_s -= kTick_s) {
       if (!pace_()) return false;
@@ -91,11 +91,11 @@ class Hold {
   Hold(const Hold&) = delete;
   Hold& operator=(const Hold&) = delete;
 
-  virtual LinkFault put_out(const Value& value) noexcept = 0;
+  virtual LinkFault send(const Value& value) noexcept = 0;
   virtual const Reading& reading() const noexcept = 0;
 
   bool exchange() {
-    const LinkFault fault = put_out(value_);
+    const LinkFault fault = send(value_);
     watch(fault);
     return fault == LinkFault::kNone;
   }
@@ -133,7 +133,7 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   void reverse_motor(int string);
 
  private:
-  LinkFault put_out(const StringVector& tension_N) noexcept override;
+  LinkFault send(const StringVector& tension_N) noexcept override;
   const DeviceReading& reading() const noexcept override { return reading_; }
 
   StringDevice& device_;
@@ -141,7 +141,7 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   DeviceReading reading_;
 };
 
-/// Keeps a grip open while this object lives, and a force on it. go() switches the force on.
+/// Keeps a grip open while this object lives, and a force on it. ramp_to() switches the force on.
 class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.
@@ -150,14 +150,14 @@ class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
   void open();
   void release();
 
-  bool go(const Eigen::Vector3d& force_N, double seconds) {
+  bool ramp_to(const Eigen::Vector3d& force_N, double seconds) {
     command_.power = 1;
     command_.fresh = true;
-    return Hold::go(force_N, seconds);
+    return Hold::ramp_to(force_N, seconds);
   }
 
  private:
-  LinkFault put_out(const Eigen::Vector3d& force_N) noexcept override;
+  LinkFault send(const Eigen::Vector3d& force_N) noexcept override;
   const GripReading& reading() const noexcept override { return grip_.reading(); }
 
   Grip& grip_;

@@ -58,13 +58,13 @@ bool silent(const WiringReport& report) {
 
 const char* verdict(const WiringReport& report) {
   if (silent(report)) return "no answer";
-  if (!report.understood()) return "unclear";
+  if (!report.is_conclusive()) return "unclear";
   return report.as_profile() ? "as in the profile" : "not as in the profile";
 }
 
 }  // namespace
 
-void tell_to_hold_still(const WiringReport& report) {
+void print_hold_still(const WiringReport& report) {
   const std::string motors = unclear_motors(report);
   std::cerr
       << "Unclear: " << (motors.empty() ? "all motors" : "motors" + motors)
@@ -95,7 +95,7 @@ void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers
     out << "No encoder moves, whichever motor pulls. Causes, the likeliest first: " << kStringCauses
         << ". Switch on the supply of the motors, and hold the grip so that the strings are "
            "taut.\n";
-  } else if (report.understood()) {
+  } else if (report.is_conclusive()) {
     out << (idle_motor ? "nothing: the motor has no supply, its string is slack, or the motor is "
                          "reversed or disconnected\n"
                        : "")

@@ -11,7 +11,7 @@
 namespace spidar::selftest {
 
 /// Prints, on standard error, what the hand must do before unclear motors are pulled again.
-void tell_to_hold_still(const WiringReport& report);
+void print_hold_still(const WiringReport& report);
 
 void print_wiring(std::ostream& out, const Profile& profile, const WiringAnswers& answers,
                   const WiringReport& report);

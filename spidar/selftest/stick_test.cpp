@@ -18,7 +18,7 @@ constexpr double kSettle_s = 0.05;
 bool average(ForceHold& hold, Eigen::Vector3d& position_m) {
   position_m.setZero();
   int readings = 0;
-  const bool whole = hold.stay(kAverage_s, [&](const GripReading& reading) {
+  const bool whole = hold.hold_for(kAverage_s, [&](const GripReading& reading) {
     position_m += reading.pose.position_m;
     ++readings;
     return true;
@@ -36,9 +36,9 @@ struct Pushes {
 
 bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
   Eigen::Vector3d before_m, pushed_m, let_go_m, after_m;
-  if (!average(hold, before_m) || !hold.go(force_N, kRamp_s) || !hold.stay(kPush_s) ||
-      !average(hold, pushed_m) || !hold.go(Eigen::Vector3d::Zero(), kRamp_s) ||
-      !hold.stay(kSettle_s) || !average(hold, let_go_m) || !hold.stay(kReturn_s) ||
+  if (!average(hold, before_m) || !hold.ramp_to(force_N, kRamp_s) || !hold.hold_for(kPush_s) ||
+      !average(hold, pushed_m) || !hold.ramp_to(Eigen::Vector3d::Zero(), kRamp_s) ||
+      !hold.hold_for(kSettle_s) || !average(hold, let_go_m) || !hold.hold_for(kReturn_s) ||
       !average(hold, after_m)) {
     return false;
   }
@@ -72,7 +72,7 @@ StickTest test_stick(Grip& grip, const Pace& pace, double push_N) {
   ForceHold hold(grip, pace);
   const GripAbilities can = grip.abilities();
   test.description = grip.description();
-  const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
+  const auto begin = [&] { return hold.ramp_to(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
   test.complete = repeated(
       hold, [] { return true; }, begin);
   if (test.complete && !grip.reading().knows_pose()) {

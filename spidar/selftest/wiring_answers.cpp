@@ -17,10 +17,10 @@ constexpr int kRounds = 4;
 /// nothing has no answer, so this allows at most smallest_answer_m() for it.
 constexpr double kSteady = 0.25;
 
-class Asking {
+class WiringMeasurement {
  public:
-  Asking(StringDevice& device, const Profile& profile, const Pace& pace,
-         const WiringSettings& settings)
+  WiringMeasurement(StringDevice& device, const Profile& profile, const Pace& pace,
+                    const WiringSettings& settings)
       : device_(device),
         profile_(profile),
         settings_(settings),
@@ -33,7 +33,7 @@ class Asking {
     }
     answers.complete = repeated(
                            hold_, [] { return true; }, [this] { return begin(); }) &&
-                       ask_all(motors, answers);
+                       measure_all(motors, answers);
     hold_.release();
   }
 
@@ -41,25 +41,25 @@ class Asking {
   bool begin() {
     pulling_ = -1;
     rested_ = false;
-    return hold_.go(rest_N_, HapticLoop::kEnergise_s) && stay();
+    return hold_.ramp_to(rest_N_, HapticLoop::kEnergise_s) && settle();
   }
 
-  bool ask_all(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
+  bool measure_all(const std::array<bool, kMaxStrings>& motors, WiringAnswers& answers) {
     for (int i = 0; i < profile_.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
       if (!motors[k]) continue;
       const bool reversed = answers.reversed[k];
-      if (!ask(i, answers)) return false;
+      if (!measure(i, answers)) return false;
       if (settings_.try_reversed && !reversed && !answered(answers, i) &&
           !measure_reversed(i, answers)) {
         return false;
       }
-      tell(i, answers);
+      report(i, answers);
     }
     return true;
   }
 
-  void tell(int motor, const WiringAnswers& answers) const {
+  void report(int motor, const WiringAnswers& answers) const {
     if (!settings_.pulled) return;
     const int sign = profile_.drives[static_cast<size_t>(motor)].encoder_sign;
     const double length_m = sign * metres_per_count(motor) * answers.counts(motor, motor);
@@ -70,7 +70,7 @@ class Asking {
     return largest_m(answers.counts.col(motor)) >= smallest_answer_m(profile_);
   }
 
-  bool ask(int motor, WiringAnswers& answers) {
+  bool measure(int motor, WiringAnswers& answers) {
     const auto k = static_cast<size_t>(motor);
     StringVector pulled_N = rest_N_;
     pulled_N[motor] = std::min(rest_N_[motor] + settings_.pull_N, profile_.drives[k].max_tension_N);
@@ -105,9 +105,9 @@ class Asking {
     StringVector pulled, after;
     if (!rested_ && !average(at_rest_)) return false;
     pulling_ = motor;
-    if (!hold_.go(pulled_N, settings_.ramp_s) || !stay() || !average(pulled)) return false;
+    if (!hold_.ramp_to(pulled_N, settings_.ramp_s) || !settle() || !average(pulled)) return false;
     pulling_ = -1;
-    if (!hold_.go(rest_N_, settings_.ramp_s) || !stay() || !average(after)) return false;
+    if (!hold_.ramp_to(rest_N_, settings_.ramp_s) || !settle() || !average(after)) return false;
     // The reference is the mean of both rests, so that a slow drift of the hand cancels.
     result.answer = pulled - 0.5 * (at_rest_ + after);
     result.drift = after - at_rest_;
@@ -126,28 +126,28 @@ class Asking {
 
   /// Tries the other sign and keeps it if the motor then pulls.
   bool measure_reversed(int motor, WiringAnswers& answers) {
-    if (!turn(motor) || !ask(motor, answers)) return false;
+    if (!reverse(motor) || !measure(motor, answers)) return false;
     answers.reversed[static_cast<size_t>(motor)] = answered(answers, motor);
-    return answered(answers, motor) || turn(motor);
+    return answered(answers, motor) || reverse(motor);
   }
 
-  bool turn(int motor) {
+  bool reverse(int motor) {
     StringVector without_N = rest_N_;
     without_N[motor] = 0;
-    const auto slacken = [&] { return hold_.go(without_N, settings_.ramp_s); };
+    const auto slacken = [&] { return hold_.ramp_to(without_N, settings_.ramp_s); };
     if (!repeated(
             hold_, [this] { return begin(); }, slacken)) {
       return false;
     }
     hold_.reverse_motor(motor);
     rested_ = false;
-    const auto tighten = [this] { return hold_.go(rest_N_, settings_.ramp_s) && stay(); };
+    const auto tighten = [this] { return hold_.ramp_to(rest_N_, settings_.ramp_s) && settle(); };
     return repeated(
         hold_, [this] { return begin(); }, tighten);
   }
 
-  bool stay() {
-    return hold_.stay(settings_.settle_s, [this](const DeviceReading& reading) {
+  bool settle() {
+    return hold_.hold_for(settings_.settle_s, [this](const DeviceReading& reading) {
       watch(reading);
       return true;
     });
@@ -156,7 +156,7 @@ class Asking {
   bool average(StringVector& counts) {
     counts.setZero();
     int readings = 0;
-    const bool whole = hold_.stay(settings_.average_s, [&](const DeviceReading& reading) {
+    const bool whole = hold_.hold_for(settings_.average_s, [&](const DeviceReading& reading) {
       watch(reading);
       for (int j = 0; j < profile_.geometry.count; ++j) {
         counts[j] += reading.count[static_cast<size_t>(j)];
@@ -222,7 +222,7 @@ WiringAnswers measure_wiring(StringDevice& device, const Profile& profile, const
 void measure_again(StringDevice& device, const Profile& profile, const Pace& pace,
                    const WiringSettings& settings, const std::array<bool, kMaxStrings>& motors,
                    WiringAnswers& answers) {
-  Asking(device, profile, pace, settings).run(motors, answers);
+  WiringMeasurement(device, profile, pace, settings).run(motors, answers);
 }
 
 }  // namespace spidar::selftest

@@ -29,9 +29,9 @@ struct Explanation {
   double worth = -1;  // the correlation minus the cost of the faults
 };
 
-class Judge {
+class WiringDiagnosis {
  public:
-  Judge(const Profile& profile, const WiringAnswers& answers)
+  WiringDiagnosis(const Profile& profile, const WiringAnswers& answers)
       : count_(profile.geometry.count), structure_(structure_matrix(profile.geometry, {})) {
     for (int i = 0; i < count_; ++i) {
       if (!(answers.pulled_N[i] > 0)) continue;
@@ -213,7 +213,7 @@ class Judge {
 
 }  // namespace
 
-bool WiringReport::understood() const noexcept {
+bool WiringReport::is_conclusive() const noexcept {
   return correlation >= kMinCorrelation &&
          std::none_of(channel.begin(), channel.begin() + count,
                       [](const WiringChannel& c) { return c.unclear; });
@@ -226,7 +226,7 @@ bool WiringReport::as_profile() const noexcept {
       return false;
     }
   }
-  return understood();
+  return is_conclusive();
 }
 
 bool WiringReport::fixable() const noexcept {
@@ -234,11 +234,11 @@ bool WiringReport::fixable() const noexcept {
     const WiringChannel& c = channel[static_cast<size_t>(i)];
     if (c.motor_string < 0 || c.motor_string != c.encoder_string) return false;
   }
-  return understood();
+  return is_conclusive();
 }
 
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers) {
-  return Judge(profile, answers).report(answers);
+  return WiringDiagnosis(profile, answers).report(answers);
 }
 
 Profile rewired_profile(const Profile& profile, const WiringReport& report,
@@ -283,7 +283,7 @@ std::pair<WiringAnswers, WiringReport> test_wiring(
     const bool silent = std::all_of(channels.begin(), channels.end(), [](const WiringChannel& c) {
       return c.motor_string < 0 && !c.unclear;
     });
-    if (report.understood() || silent || tries == kWiringTries) break;
+    if (report.is_conclusive() || silent || tries == kWiringTries) break;
     std::array<bool, kMaxStrings> doubtful{};
     for (size_t i = 0; i < doubtful.size(); ++i) doubtful[i] = report.channel[i].unclear;
     if (std::none_of(doubtful.begin(), doubtful.end(), [](bool d) { return d; })) {

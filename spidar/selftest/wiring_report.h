@@ -34,7 +34,7 @@ struct WiringReport {
   /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
   /// Whether the correlation is sufficient, and no motor is unclear.
-  bool understood() const noexcept;
+  bool is_conclusive() const noexcept;
   bool as_profile() const noexcept;
   /// Whether a profile can describe the wiring: the wiring differs only in signs, and in strings
   /// that are at other channels, motor and encoder together.
@@ -62,9 +62,9 @@ Profile rewired_profile(const Profile& profile, const WiringReport& report, cons
 constexpr int kWiringTries = 3;
 
 /// Runs measure_wiring() and judge_wiring(); the report is not valid if the answers are not
-/// complete. As long as the report is not understood() and something has moved, up to kWiringTries
-/// times in all, calls `repeat` while all tensions are zero, and measures the unclear motors again,
-/// or all if none is unclear. Throws DeviceError like measure_wiring().
+/// complete. As long as the report is not is_conclusive() and something has moved, up to
+/// kWiringTries times in all, calls `repeat` while all tensions are zero, and measures the unclear
+/// motors again, or all if none is unclear. Throws DeviceError like measure_wiring().
 std::pair<WiringAnswers, WiringReport> test_wiring(
     StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
     const std::function<void(const WiringReport&)>& repeat = {});

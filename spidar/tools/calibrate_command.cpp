@@ -115,7 +115,7 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
     PullRows rows(profile.geometry.count);
     settings.pulled = rows.pulled();
     return selftest::test_wiring(bench.device(), profile, pace, settings,
-                                 selftest::tell_to_hold_still);
+                                 selftest::print_hold_still);
   }();
   if (!answers.complete) return false;
   if (report.as_profile()) return true;

@@ -27,10 +27,11 @@ bool read_when_there(selftest::StringHold& hold, const std::string& question,
                      EncoderScale::Counts& counts) {
   forget_typed_ahead();
   std::cerr << question << " and press Enter.\n";
-  const bool whole = hold.stay(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
-    counts = reading.count;
-    return !is_line_there();
-  });
+  const bool whole =
+      hold.hold_for(std::numeric_limits<double>::infinity(), [&](const auto& reading) {
+        counts = reading.count;
+        return !is_line_there();
+      });
   std::string line;
   if (whole && !std::getline(std::cin, line)) {
     throw UsageError("the standard input ended before the grip was at every side");

@@ -146,8 +146,8 @@ int monitor(const MonitorOptions& options) {
   catch_signals();
   Monitor monitor(chosen.profile, options.json);
   selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
-  if (options.taut) hold.go(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s);
-  hold.stay(options.seconds, [&](const DeviceReading& reading) {
+  if (options.taut) hold.ramp_to(chosen.profile.min_tension_N(), HapticLoop::kEnergise_s);
+  hold.hold_for(options.seconds, [&](const DeviceReading& reading) {
     monitor.show(reading);
     return std::cout.good();  // a full disk ends the command
   });

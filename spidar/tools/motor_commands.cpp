@@ -25,10 +25,10 @@ int zero(const DeviceOptions& options) {
   bool answered = false;
   if (chosen.grip) {
     selftest::ForceHold hold(*chosen.grip, every_millisecond());
-    hold.stay(0.02, [&](const GripReading&) { return answered = true; });
+    hold.hold_for(0.02, [&](const GripReading&) { return answered = true; });
   } else {
     selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
-    hold.stay(0.02, [&](const DeviceReading&) { return answered = true; });
+    hold.hold_for(0.02, [&](const DeviceReading&) { return answered = true; });
   }
   if (!answered) {
     throw DeviceError(chosen.name() + ": the device did not answer; switch off its supply");
@@ -84,10 +84,11 @@ Lengths run(ChosenDevice& chosen, const PullOptions& pull) {
     };
   };
   selftest::StringHold hold(*chosen.device, profile, every_millisecond());
-  lengths.complete = hold.go(profile.min_tension_N(), HapticLoop::kEnergise_s) &&
-                     hold.stay(kRamp_s, newest(lengths.before_m)) && hold.go(pulled_N, kRamp_s) &&
-                     hold.stay(pull.seconds, newest(lengths.pulled_m)) &&
-                     hold.go(profile.min_tension_N(), kRamp_s);
+  lengths.complete = hold.ramp_to(profile.min_tension_N(), HapticLoop::kEnergise_s) &&
+                     hold.hold_for(kRamp_s, newest(lengths.before_m)) &&
+                     hold.ramp_to(pulled_N, kRamp_s) &&
+                     hold.hold_for(pull.seconds, newest(lengths.pulled_m)) &&
+                     hold.ramp_to(profile.min_tension_N(), kRamp_s);
   hold.release();
   return lengths;
 }

@@ -101,7 +101,7 @@ struct FoundBoard {
 bool read_strings(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
   selftest::StringHold hold(*chosen.device, chosen.profile, every_millisecond());
-  hold.stay(0.1, [&](const DeviceReading& reading) {
+  hold.hold_for(0.1, [&](const DeviceReading& reading) {
     found.reading = reading;
     return read = true;
   });
@@ -113,7 +113,7 @@ bool read_strings(ChosenDevice& chosen, FoundBoard& found) {
 bool read_position(ChosenDevice& chosen, FoundBoard& found) {
   bool read = false;
   selftest::ForceHold hold(*chosen.grip, every_millisecond());
-  hold.stay(0.1, [&](const GripReading& reading) {
+  hold.hold_for(0.1, [&](const GripReading& reading) {
     found.position_m.setConstant(std::numeric_limits<double>::quiet_NaN());
     if (reading.knows_pose()) found.position_m = reading.pose.position_m;
     return read = true;

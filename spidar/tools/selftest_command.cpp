@@ -101,7 +101,7 @@ std::optional<std::string> pulse(Grip& grip, double push_N) {
   constexpr double kRise_s = 0.05, kPulse_s = 0.5;
   const GripAbilities can = grip.abilities();
   selftest::ForceHold hold(grip, every_millisecond());
-  const auto begin = [&] { return hold.go(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
+  const auto begin = [&] { return hold.ramp_to(Eigen::Vector3d::Zero(), HapticLoop::kEnergise_s); };
   bool whole = selftest::repeated(
       hold, [] { return true; }, begin);
   for (size_t axis = 0; axis < (can.direction ? kSides.size() : 1) && whole; ++axis) {
@@ -109,8 +109,8 @@ std::optional<std::string> pulse(Grip& grip, double push_N) {
     std::cout << (can.direction ? kSides[axis] : "strength") << "  a pulse of 0.5 s" << std::endl;
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(static_cast<Eigen::Index>(axis));
     whole = selftest::repeated(hold, begin, [&] {
-      return hold.go(push_N * along, kRise_s) && hold.stay(kPulse_s) &&
-             hold.go(Eigen::Vector3d::Zero(), kRise_s) && hold.stay(kPulse_s);
+      return hold.ramp_to(push_N * along, kRise_s) && hold.hold_for(kPulse_s) &&
+             hold.ramp_to(Eigen::Vector3d::Zero(), kRise_s) && hold.hold_for(kPulse_s);
     });
   }
   return whole ? std::optional(grip.description()) : std::nullopt;
@@ -189,7 +189,7 @@ int run_selftest(const SelftestOptions& options) {
     settings.pulled = rows.pulled();
     return in_real_time([&] {
       return selftest::test_wiring(*chosen.device, profile, every_millisecond(), settings,
-                                   selftest::tell_to_hold_still);
+                                   selftest::print_hold_still);
     });
   }();
   if (!answers.complete) return interrupted_test();

@@ -99,7 +99,7 @@ Contact Rendering::tick(Mailbox& mailbox, int64_t running_ns, const Eigen::Vecto
   return result;
 }
 
-void Rendering::rest(Mailbox& mailbox) noexcept {
+void Rendering::tick_without_contact(Mailbox& mailbox) noexcept {
   drop_cleared(mailbox);
   contact_.reset();
 }

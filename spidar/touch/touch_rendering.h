@@ -183,7 +183,7 @@ class Rendering {
   }
 
   /// Renders a tick without contact, because nothing is playing or the pose of the grip is unknown.
-  void rest(Mailbox& mailbox) noexcept;
+  void tick_without_contact(Mailbox& mailbox) noexcept;
 
  private:
   void drop_cleared(Mailbox& mailbox) noexcept;

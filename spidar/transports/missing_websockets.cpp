@@ -26,8 +26,8 @@ Transfer WebSocketTransport::transfer(std::initializer_list<ByteView>, MutableBy
   return {LinkFault::kGone, 0};
 }
 
-Transport::Unasked WebSocketTransport::drop_unasked(int64_t) noexcept {
-  return Unasked::kNone;
+Transport::StaleData WebSocketTransport::drop_stale_data(int64_t) noexcept {
+  return StaleData::kNone;
 }
 
 void WebSocketTransport::recover() noexcept {}

@@ -29,7 +29,7 @@ struct Transfer {
 class Transport {
  public:
   /// How long open() waits for a connection that is in use, and the interval between attempts.
-  static constexpr int64_t kBusyPatience_ns = 300'000'000;
+  static constexpr int64_t kBusyTimeout_ns = 300'000'000;
   static constexpr int64_t kBusyCheck_ns = 10'000'000;
 
   virtual ~Transport() = default;
@@ -45,16 +45,17 @@ class Transport {
   ///
   /// Data that arrived before the packets were sent is stale and is dropped. Returns kBabble when
   /// stale data keeps coming, or when the exchanges that found stale data outnumber the others by
-  /// kMostUnasked.
+  /// kMaxStaleExchanges.
   Transfer exchange(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept {
     if (packets.size() == 0 || reply.size == 0) return transfer(packets, reply, deadline_ns);
     const int64_t now_ns = monotonic_now_ns();
-    const Unasked unasked = drop_unasked(now_ns + (deadline_ns - now_ns) / 2);
-    unasked_ = std::clamp(unasked_ + (unasked == Unasked::kNone ? -1 : 1), 0, kMostUnasked);
+    const StaleData stale = drop_stale_data(now_ns + (deadline_ns - now_ns) / 2);
+    stale_exchanges_ =
+        std::clamp(stale_exchanges_ + (stale == StaleData::kNone ? -1 : 1), 0, kMaxStaleExchanges);
     Transfer result = transfer(packets, reply, deadline_ns);
     const bool answered = result.fault == LinkFault::kNone || result.fault == LinkFault::kShort;
-    if (answered && (unasked == Unasked::kEndless || unasked_ == kMostUnasked)) {
+    if (answered && (stale == StaleData::kEndless || stale_exchanges_ == kMaxStaleExchanges)) {
       result.fault = LinkFault::kBabble;
     }
     return result;
@@ -78,29 +79,31 @@ class Transport {
   /// May be called twice.
   virtual void close() noexcept = 0;
 
-  /// Two seconds of exchanges. A few stale replies are dropped and are not a fault.
-  static constexpr int kMostUnasked = 2000;
+  /// Two seconds of exchanges at 1 kHz: enough for a service to catch up after a pause, and not too
+  /// long to wait for the message. This duration is a choice; no measurement stands behind it. Each
+  /// exchange drops all that has arrived, so it does not matter how many replies are stale.
+  static constexpr int kMaxStaleExchanges = 2000;
 
  protected:
-  enum class Unasked { kNone, kDropped, kEndless };
+  enum class StaleData { kNone, kDropped, kEndless };
 
   /// The part of exchange() that differs between connections.
   virtual Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                             int64_t deadline_ns) noexcept = 0;
   /// Drops stale received data until none is left (kDropped) or until `until_ns` (kEndless). The
   /// default drops nothing: a USB board buffers its replies itself, and only a few of them.
-  virtual Unasked drop_unasked(int64_t) noexcept { return Unasked::kNone; }
+  virtual StaleData drop_stale_data(int64_t) noexcept { return StaleData::kNone; }
 
  private:
-  int unasked_ = 0;  ///< exchanges before which data was dropped, minus the other exchanges
+  int stale_exchanges_ = 0;  ///< exchanges before which data was dropped, minus the other exchanges
 };
 
 /// Locks an open device file for this file descriptor until it is closed. Waits up to
-/// Transport::kBusyPatience_ns, because a program that has just been killed, or its guardian, may
+/// Transport::kBusyTimeout_ns, because a program that has just been killed, or its guardian, may
 /// hold the lock a moment longer. On failure returns false and sets errno, to EWOULDBLOCK if
 /// another process holds the lock.
 inline bool lock_device(int file) noexcept {
-  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyTimeout_ns;
   while (flock(file, LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK || monotonic_now_ns() > until_ns) return false;
     sleep_until_ns(monotonic_now_ns() + Transport::kBusyCheck_ns);

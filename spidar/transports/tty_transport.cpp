@@ -193,12 +193,12 @@ Transfer TtyTransport::transfer(std::initializer_list<ByteView> packets, Mutable
   return {LinkFault::kNone, received};
 }
 
-Transport::Unasked TtyTransport::drop_unasked(int64_t) noexcept {
+Transport::StaleData TtyTransport::drop_stale_data(int64_t) noexcept {
   int unread = 0;
   ioctl(file_, FIONREAD, &unread);
-  if (unread == 0) return Unasked::kNone;
+  if (unread == 0) return StaleData::kNone;
   ioctl(file_, TCFLSH, TCIFLUSH);
-  return Unasked::kDropped;
+  return StaleData::kDropped;
 }
 
 void TtyTransport::recover() noexcept {

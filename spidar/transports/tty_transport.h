@@ -38,7 +38,7 @@ class TtyTransport final : public Transport {
  private:
   Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
-  Unasked drop_unasked(int64_t until_ns) noexcept override;
+  StaleData drop_stale_data(int64_t until_ns) noexcept override;
   [[noreturn]] void fail(const std::string& what, SourceLocation location = SourceLocation::here());
   LinkFault wait_for(short events, int64_t deadline_ns) noexcept;
 

@@ -163,7 +163,7 @@ bool has_endpoint(const libusb_interface_descriptor& setting, uint8_t address, b
 
 /// A process that was just killed, or its guardian, may still hold the board.
 int claim(libusb_device_handle* handle) {
-  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyPatience_ns;
+  const int64_t until_ns = monotonic_now_ns() + Transport::kBusyTimeout_ns;
   int error = libusb_claim_interface(handle, kInterface);
   while (error == LIBUSB_ERROR_BUSY && monotonic_now_ns() < until_ns) {
     sleep_until_ns(monotonic_now_ns() + Transport::kBusyCheck_ns);

@@ -55,7 +55,7 @@ class WebSocketTransport::Connection {
     return run([this] { return complete_ || gone(); }, deadline_ns) && finish();
   }
   /// Reads and drops received data until there is no more, or until `until_ns`.
-  Unasked drop_unasked(int64_t until_ns);
+  StaleData drop_stale_data(int64_t until_ns);
   void send(std::initializer_list<ByteView> packets) noexcept;
 
   bool gone() const noexcept { return state_ == State::kGone; }
@@ -69,7 +69,7 @@ class WebSocketTransport::Connection {
   enum class State { kConnecting, kOpen, kGone };
 
   static int handle(lws* socket, lws_callback_reasons reason, void*, void* in, size_t length);
-  void take(const uint8_t* bytes, size_t length);
+  void receive_fragment(const uint8_t* bytes, size_t length);
   void write();
   bool finish() noexcept;
   bool has_unread() const noexcept;
@@ -134,7 +134,7 @@ int WebSocketTransport::Connection::handle(lws* socket, lws_callback_reasons rea
       self->state_ = State::kGone;
       break;
     case LWS_CALLBACK_CLIENT_RECEIVE:
-      self->take(static_cast<const uint8_t*>(in), length);
+      self->receive_fragment(static_cast<const uint8_t*>(in), length);
       break;
     case LWS_CALLBACK_CLIENT_WRITEABLE:
       self->write();
@@ -145,7 +145,7 @@ int WebSocketTransport::Connection::handle(lws* socket, lws_callback_reasons rea
   return 0;
 }
 
-void WebSocketTransport::Connection::take(const uint8_t* bytes, size_t length) {
+void WebSocketTransport::Connection::receive_fragment(const uint8_t* bytes, size_t length) {
   if (lws_is_first_fragment(socket_)) {
     surplus_ = surplus_ || complete_ || !asked_;
     counts_ = asked_;
@@ -167,7 +167,7 @@ bool WebSocketTransport::Connection::has_unread() const noexcept {
   return !gone() && ioctl(file(), FIONREAD, &unread) == 0 && unread > 0;
 }
 
-Transport::Unasked WebSocketTransport::Connection::drop_unasked(int64_t until_ns) {
+Transport::StaleData WebSocketTransport::Connection::drop_stale_data(int64_t until_ns) {
   bool is_in_time = true;
   while (is_in_time && has_unread()) {
     is_in_time = monotonic_now_ns() < until_ns;
@@ -175,8 +175,8 @@ Transport::Unasked WebSocketTransport::Connection::drop_unasked(int64_t until_ns
     if (lws_service(context_, -1) < 0) state_ = State::kGone;
   }
   finish();
-  if (!is_in_time) return Unasked::kEndless;
-  return std::exchange(surplus_, false) ? Unasked::kDropped : Unasked::kNone;
+  if (!is_in_time) return StaleData::kEndless;
+  return std::exchange(surplus_, false) ? StaleData::kDropped : StaleData::kNone;
 }
 
 void WebSocketTransport::Connection::write() {
@@ -255,8 +255,8 @@ Transfer WebSocketTransport::transfer(std::initializer_list<ByteView> packets, M
   return {length < reply.size ? LinkFault::kShort : LinkFault::kNone, length};
 }
 
-Transport::Unasked WebSocketTransport::drop_unasked(int64_t until_ns) noexcept {
-  return connection_ ? connection_->drop_unasked(until_ns) : Unasked::kNone;
+Transport::StaleData WebSocketTransport::drop_stale_data(int64_t until_ns) noexcept {
+  return connection_ ? connection_->drop_stale_data(until_ns) : StaleData::kNone;
 }
 
 void WebSocketTransport::recover() noexcept {

@@ -16,13 +16,13 @@ namespace spidar {
 
 /// Whether a program listens at this TCP port of the loopback. Connects to the port for a moment.
 inline bool is_listening(uint16_t port) {
-  constexpr timeval kPatience{0, 100'000};  // for a listener whose queue is full
+  constexpr timeval kSendTimeout{0, 100'000};  // for a listener whose queue is full
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   const int file = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  setsockopt(file, SOL_SOCKET, SO_SNDTIMEO, &kPatience, sizeof kPatience);
+  setsockopt(file, SOL_SOCKET, SO_SNDTIMEO, &kSendTimeout, sizeof kSendTimeout);
   const bool listening =
       connect(file, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
   close(file);
@@ -51,7 +51,7 @@ class WebSocketTransport final : public Transport {
  private:
   Transfer transfer(std::initializer_list<ByteView> packets, MutableBytes reply,
                     int64_t deadline_ns) noexcept override;
-  Unasked drop_unasked(int64_t until_ns) noexcept override;
+  StaleData drop_stale_data(int64_t until_ns) noexcept override;
   class Connection;
 
   const std::string name_;

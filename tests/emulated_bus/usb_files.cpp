@@ -36,7 +36,7 @@ constexpr uint8_t kIn = 0x80;
 class PortMotors final : public emulated::Motors {
  public:
   explicit PortMotors(UsbPort& port) : port_(port) {}
-  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+  void set_outputs(const std::array<int, kMaxStrings>& digits) noexcept override {
     for (size_t i = 0; i < digits.size(); ++i) port_.digit[i] = digits[i];
     ++port_.updates;
   }

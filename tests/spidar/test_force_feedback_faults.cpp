@@ -62,8 +62,8 @@ TEST(UpdateWatch, FailuresInARowAreReportedUntilAnUpdateSucceeds) {
 TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
   boards::UpdateWatch watch;
   watch.start(0);
-  EXPECT_EQ(watch.report(boards::UpdateWatch::kPatience_ns), LinkFault::kNone);
-  EXPECT_EQ(watch.report(boards::UpdateWatch::kPatience_ns + 1), LinkFault::kTimeout);
+  EXPECT_EQ(watch.report(boards::UpdateWatch::kTimeout_ns), LinkFault::kNone);
+  EXPECT_EQ(watch.report(boards::UpdateWatch::kTimeout_ns + 1), LinkFault::kTimeout);
   const int64_t again_ns = 3 * kSecond_ns;
   watch.finish(LinkFault::kNone, again_ns);
   EXPECT_EQ(watch.report(again_ns), LinkFault::kNone);

@@ -278,7 +278,7 @@ TEST(BrokenString, TheOthersDeliverOnlyWhatIsCertain) {
     TensionCommand command(profile);
     for (int n = 0; n < 500; ++n) {
       const int string = n % profile.geometry.count;
-      command.leave_out(string);
+      command.exclude(string);
       const StructureMatrix W = structure_matrix(profile.geometry, random.pose(0.02, 0.3));
       const Wrench wanted{3 * random.direction(), Eigen::Vector3d::Zero()};
       const StringVector tension_N = command.solve(W, wanted, profile.max_tension_N());

@@ -143,7 +143,7 @@ class SteppedStick final : public emulated::Motors {
 
   /// `spring_s`: spring over friction, in 1/s; `inertia_s`: how long its speed needs to follow.
   SteppedStick(double spring_s, double inertia_s) : spring_s_(spring_s), inertia_s_(inertia_s) {}
-  void put_out(const std::array<int, kMaxStrings>& levels) noexcept override {
+  void set_outputs(const std::array<int, kMaxStrings>& levels) noexcept override {
     force_ = double{1} * levels[0] / ff::kFullLevel;
   }
   std::array<int32_t, kMaxStrings> counts() noexcept override {

@@ -80,11 +80,11 @@ TEST_F(WebSockets, AServiceThatSendsMoreThanItIsAskedForIsNamed) {
     }
     return asked;
   };
-  EXPECT_GE(ask_until(LinkFault::kBabble), Transport::kMostUnasked);
+  EXPECT_GE(ask_until(LinkFault::kBabble), Transport::kMaxStaleExchanges);
   transport.open();  // which does not help
-  EXPECT_LT(ask_until(LinkFault::kBabble), Transport::kMostUnasked);
+  EXPECT_LT(ask_until(LinkFault::kBabble), Transport::kMaxStaleExchanges);
   service.answers = 1;
-  EXPECT_LT(ask_until(LinkFault::kShort), Transport::kMostUnasked);
+  EXPECT_LT(ask_until(LinkFault::kShort), Transport::kMaxStaleExchanges);
 }
 
 /// In a container, a process may have a billion files.

@@ -138,7 +138,7 @@ TEST(Wiring, EveryExchangeOfTwoIsFound) {
             if (motors) answers.counts.col(a).swap(answers.counts.col(b));
             if (encoders) answers.counts.row(a).swap(answers.counts.row(b));
             const selftest::WiringReport report = selftest::judge_wiring(profile, answers);
-            EXPECT_TRUE(report.understood());
+            EXPECT_TRUE(report.is_conclusive());
             for (int i = 0; i < report.count; ++i) {
               const int other = i == a ? b : i == b ? a : i;
               const selftest::WiringChannel& c = report.channel[static_cast<size_t>(i)];
@@ -167,7 +167,7 @@ TEST(Wiring, ReversedAndCutWiresAreFound) {
   for (const auto& [wiring, faults] : cases) {
     SCOPED_TRACE(wiring);
     const selftest::WiringReport report = test_of(profile, wiring);
-    EXPECT_TRUE(report.understood());
+    EXPECT_TRUE(report.is_conclusive());
     EXPECT_FALSE(report.as_profile());
     EXPECT_EQ(faults_of(report), faults);
   }
@@ -221,8 +221,8 @@ TEST(Wiring, AnotherDevicesAnswersAreNotUnderstood) {
   std::mt19937 random(1);
   std::normal_distribution<double> counts(0, 100);
   for (double& count : answers.counts.reshaped()) count = counts(random);
-  EXPECT_FALSE(selftest::judge_wiring(profile, answers).understood());
-  EXPECT_FALSE(selftest::judge_wiring(profile, {}).understood());
+  EXPECT_FALSE(selftest::judge_wiring(profile, answers).is_conclusive());
+  EXPECT_FALSE(selftest::judge_wiring(profile, {}).is_conclusive());
 }
 
 TEST(Wiring, PullingEndsWithTheMotorsAtZero) {

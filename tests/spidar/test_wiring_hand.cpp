@@ -71,7 +71,7 @@ TEST(Wiring, AnUnrulyHandDoesNotMakeAGoodDeviceFail) {
     const auto [answers, report] = selftest::test_wiring(
         device, profile, without_pauses, {}, [&](const selftest::WiringReport& unclear) {
           again = true;
-          EXPECT_FALSE(unclear.understood());
+          EXPECT_FALSE(unclear.is_conclusive());
         });
     first += again;
     rejected += !report.as_profile();

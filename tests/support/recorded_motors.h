@@ -31,7 +31,7 @@ class RecordedMotors final : public emulated::Motors {
  public:
   explicit RecordedMotors(MotorBench& bench) : bench_(bench) {}
 
-  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+  void set_outputs(const std::array<int, kMaxStrings>& digits) noexcept override {
     for (size_t i = 0; i < digits.size(); ++i) bench_.digit[i] = digits[i];
     bench_.history.push_back(digits[0]);
     ++bench_.updates;

@@ -10,7 +10,7 @@ namespace spidar::emulated {
 void Sh4::receive(ByteView bytes) noexcept {
   CyverseDigits digits{};
   if (!sh4::decode_update(bytes, digits)) return;
-  motors_->put_out(digits);
+  motors_->set_outputs(digits);
   const std::array<int32_t, kMaxStrings> counts = motors_->counts();
   sh4::Reading reading;
   reading.dac_echo = digits;
@@ -32,7 +32,7 @@ void Simple::receive(ByteView bytes) noexcept {
   if (!command) return;
   switch (*command) {
     case usb_simple::Command::kSetDac:
-      motors_->put_out(digits);
+      motors_->set_outputs(digits);
       break;
     case usb_simple::Command::kLatchCounters: {
       const std::array<int32_t, kMaxStrings> counts = motors_->counts();

@@ -7,7 +7,7 @@
 namespace spidar {
 namespace {
 
-void put_digits(const CyverseDigits& digits, size_t at, MutableBytes bytes) noexcept {
+void write_digits(const CyverseDigits& digits, size_t at, MutableBytes bytes) noexcept {
   for (const int digit : digits) {
     bytes.put_u16(at, static_cast<uint16_t>(std::clamp(digit, 0, sh4::kMaxDigit)));
     at += 2;
@@ -36,7 +36,7 @@ void encode_update(const CyverseDigits& digits, Packet& packet) noexcept {
   const MutableBytes bytes(packet);
   bytes.put_u8(0, kUpdateAll);
   bytes.put_u8(1, kBaseAnalyzer);
-  put_digits(digits, kDigitsAt, bytes);
+  write_digits(digits, kDigitsAt, bytes);
 }
 
 bool decode_update(ByteView packet, CyverseDigits& digits) noexcept {
@@ -95,7 +95,7 @@ void encode_encoder_direction(uint8_t channels, Packet& packet) noexcept {
 void encode_set_dac(const CyverseDigits& digits, Packet& packet) noexcept {
   packet.fill(0);
   packet[0] = kSetDac;
-  put_digits(digits, kDigitsAt, packet);
+  write_digits(digits, kDigitsAt, packet);
 }
 
 void encode_latch(Packet& packet) noexcept {

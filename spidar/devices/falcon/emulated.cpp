@@ -89,7 +89,7 @@ void Falcon::handle(const falcon::Command& command) noexcept {
   const Eigen::Vector3d at_m = position_m(*motors_);
   // When the position is out of reach, the grip stays where it was.
   angles_rad_ = falcon::arm_angles(at_m).value_or(angles_rad_);
-  put_out_N(*motors_, force_N(command.digit, angles_rad_, at_m));
+  set_force_N(*motors_, force_N(command.digit, angles_rad_, at_m));
   falcon::Reading reading;
   for (size_t i = 0; i < 3; ++i) {
     reading.count[i] = falcon::count_at(angles_rad_[static_cast<Eigen::Index>(i)]);

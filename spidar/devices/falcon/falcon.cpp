@@ -58,7 +58,7 @@ class Falcon final : public OnTransport<ForceBoard> {
 
   template <typename Requests>
   LinkFault set_line(const Requests& requests) noexcept;
-  LinkFault say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept;
+  LinkFault transact(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept;
   LinkFault ask(const falcon::Command& command, int64_t deadline_ns) noexcept;
   LinkFault start() noexcept;
   LinkFault greet_loader() noexcept;
@@ -119,7 +119,7 @@ LinkFault Falcon::set_line(const Requests& requests) noexcept {
 /// Sends the bytes and waits until the answer is complete. Packets from the chip begin with its
 /// status and contain any part of an answer, or nothing: the chip sends its status even while the
 /// device is silent, until the transport stops at the deadline.
-LinkFault Falcon::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
+LinkFault Falcon::transact(ByteView bytes, MutableBytes answer, int64_t deadline_ns) noexcept {
   if (std::exchange(stale_, true)) transport_->control(ftdi::kDropReceived, deadline_ns);
   std::array<uint8_t, ftdi::kPacketSize> in{};
   for (size_t filled = 0, sent = 0; filled < answer.size; sent = 1) {
@@ -141,7 +141,7 @@ LinkFault Falcon::say(ByteView bytes, MutableBytes answer, int64_t deadline_ns) 
 LinkFault Falcon::ask(const falcon::Command& command, int64_t deadline_ns) noexcept {
   falcon::encode_command(command, out_);
   falcon::Packet answer{};
-  const LinkFault fault = say(out_, answer, deadline_ns);
+  const LinkFault fault = transact(out_, answer, deadline_ns);
   if (fault != LinkFault::kNone) return fault;
   if (falcon::decode_reading(answer, seen_)) return LinkFault::kNone;
   stale_ = true;
@@ -159,14 +159,15 @@ LinkFault Falcon::greet_loader() noexcept {
   LinkFault fault = set_line(falcon::kHelloLine);
   std::array<uint8_t, falcon::kHelloAnswer.size()> answer{};
   for (int i = 0; i < kHellos && fault == LinkFault::kNone; ++i) {
-    const LinkFault said = say(falcon::kHello, answer, soon_ns());
-    if (said == LinkFault::kGone) return said;
+    const LinkFault loader_fault = transact(falcon::kHello, answer, soon_ns());
+    if (loader_fault == LinkFault::kGone) return loader_fault;
     // If a zero byte comes first, the last byte of the answer does not fit.
     const size_t zero = answer[0] == 0 ? 1 : 0;
     if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
       return set_line(falcon::kLoadLine);
     }
-    if (i + 1 == kHellos) fault = said == LinkFault::kNone ? LinkFault::kWrongReply : said;
+    if (i + 1 == kHellos)
+      fault = loader_fault == LinkFault::kNone ? LinkFault::kWrongReply : loader_fault;
   }
   return fault;
 }
@@ -177,7 +178,7 @@ LinkFault Falcon::load(const std::vector<uint8_t>& firmware) noexcept {
   std::array<uint8_t, falcon::kPieceSize> echo{};
   const auto send = [&](ByteView piece) {
     if (fault != LinkFault::kNone) return;
-    fault = say(piece, {echo.data(), piece.size}, soon_ns());
+    fault = transact(piece, {echo.data(), piece.size}, soon_ns());
     if (fault == LinkFault::kNone &&
         !std::equal(piece.data, piece.data + piece.size, echo.begin())) {
       fault = LinkFault::kWrongEcho;

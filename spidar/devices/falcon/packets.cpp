@@ -17,7 +17,7 @@ void begin(Packet& packet) noexcept {
   packet.back() = kEnd;
 }
 
-void put_number(Packet& packet, size_t index, uint16_t value) noexcept {
+void write_number(Packet& packet, size_t index, uint16_t value) noexcept {
   for (size_t i = 0; i < kNibbles; ++i) {
     packet[kNumbersAt + kNibbles * index + i] =
         static_cast<uint8_t>(kZero + (value >> (4 * i) & 0xF));
@@ -48,8 +48,8 @@ int16_t number(ByteView packet, size_t index) noexcept {
 void encode_command(const Command& command, Packet& packet) noexcept {
   begin(packet);
   for (size_t i = 0; i < command.digit.size(); ++i) {
-    put_number(packet, i,
-               static_cast<uint16_t>(std::clamp(command.digit[i], -kMostDigit, kMostDigit)));
+    write_number(packet, i,
+                 static_cast<uint16_t>(std::clamp(command.digit[i], -kMostDigit, kMostDigit)));
   }
   const auto light = static_cast<uint8_t>(command.light);
   packet[kFlagsAt] = static_cast<uint8_t>(kZero + (light | (command.homing ? kHomingBit : 0)));
@@ -74,7 +74,7 @@ bool decode_command(ByteView packet, Command& command) noexcept {
 void encode_reading(const Reading& reading, Packet& packet) noexcept {
   begin(packet);
   for (size_t i = 0; i < reading.count.size(); ++i) {
-    put_number(packet, i, static_cast<uint16_t>(reading.count[i]));
+    write_number(packet, i, static_cast<uint16_t>(reading.count[i]));
   }
   packet[kFlagsAt] =
       static_cast<uint8_t>(kZero + ((reading.buttons & 0xF) | (reading.homed & 7) << 4));

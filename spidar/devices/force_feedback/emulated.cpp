@@ -36,7 +36,7 @@ void ForceFeedback::upload(const ff::Effect& effect) noexcept {
   slots_[at].effect = effect;
   slots_[at].used = true;
   answer(static_cast<int16_t>(at));
-  put_out();
+  update_motors();
 }
 
 void ForceFeedback::receive(ByteView bytes) noexcept {
@@ -50,11 +50,11 @@ void ForceFeedback::receive(ByteView bytes) noexcept {
   } else if (const auto event = ff::decode_event(bytes)) {
     if (event->code >= slots_.size()) return;  // the code is gain or autocentre, not an effect
     slots_[event->code].plays = event->value > 0;
-    put_out();
+    update_motors();
   }
 }
 
-void ForceFeedback::put_out() noexcept {
+void ForceFeedback::update_motors() noexcept {
   double right = 0, up = 0, rumble = 0;
   for (const Slot& slot : slots_) {
     if (!slot.plays) continue;
@@ -62,9 +62,9 @@ void ForceFeedback::put_out() noexcept {
     up += slot.effect.up;
     rumble += slot.effect.rumble;
   }
-  motors_->put_out({static_cast<int>(std::lround(right * ff::kFullLevel)),
-                    static_cast<int>(std::lround(up * ff::kFullLevel)),
-                    static_cast<int>(std::lround(rumble * ff::kFullStrength))});
+  motors_->set_outputs({static_cast<int>(std::lround(right * ff::kFullLevel)),
+                        static_cast<int>(std::lround(up * ff::kFullLevel)),
+                        static_cast<int>(std::lround(rumble * ff::kFullStrength))});
 }
 
 size_t ForceFeedback::reply(MutableBytes bytes) noexcept {

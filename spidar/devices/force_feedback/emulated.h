@@ -32,7 +32,7 @@ class ForceFeedback final : public Board {
   };
 
   void upload(const ff::Effect& effect) noexcept;
-  void put_out() noexcept;
+  void update_motors() noexcept;
   template <typename Structure>
   void answer(const Structure& structure) noexcept;
 

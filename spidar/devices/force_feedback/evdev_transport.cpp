@@ -57,7 +57,7 @@ bool position_on(int file, int axis, int16_t& position) noexcept {
 }
 
 template <typename Structure>
-size_t put(const Structure& structure, MutableBytes reply) noexcept {
+size_t copy_to(const Structure& structure, MutableBytes reply) noexcept {
   const size_t length = std::min(sizeof structure, reply.size);
   std::memcpy(reply.data, &structure, length);
   return length;
@@ -198,20 +198,20 @@ bool EvdevTransport::read_buttons(ff::Position& position) const noexcept {
 
 LinkFault EvdevTransport::send(ByteView packet, MutableBytes reply, size_t& received) noexcept {
   if (packet.size == ff::kDescribeSize) {
-    received = put(describe(), reply);
+    received = copy_to(describe(), reply);
     return LinkFault::kNone;
   }
   if (packet.size == ff::kPositionSize) {
     ff::Position position;
     if (!read_position(position)) return fault_of_input(errno);
-    received = put(position, reply);
+    received = copy_to(position, reply);
     return LinkFault::kNone;
   }
   if (packet.size == ff::kEffectSize) {
     ff_effect effect{};
     std::memcpy(&effect, packet.data, sizeof effect);
     if (call_ioctl(file_, EVIOCSFF, &effect) < 0) return fault_of_input(errno);
-    received = put(effect.id, reply);
+    received = copy_to(effect.id, reply);
     return LinkFault::kNone;
   }
   const ssize_t written = uninterrupted([&] { return ::write(file_, packet.data, packet.size); });

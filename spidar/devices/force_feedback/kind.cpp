@@ -12,7 +12,7 @@ namespace {
 
 /// Parses axes=N, gain=PERCENT, flip=x, flip=y or flip=xy. Returns false for any other text, and
 /// for an option that was given before.
-bool take_option(const std::string& option, int& axes, boards::StickEffects::Options& options) {
+bool parse_option(const std::string& option, int& axes, boards::StickEffects::Options& options) {
   if (axes == 0 && (axes = option_value(option, "axes=", 2)) != 0) return true;
   if (options.gain == 0 && (options.gain = option_value(option, "gain=", 100) / 100.0) != 0) {
     return true;
@@ -38,7 +38,7 @@ boards::AnyBoard make_force_feedback(const std::string& name, const std::string&
       throw DeviceError(name + ": the path is empty; write ff:/dev/input/eventN," + option,
                         DeviceErrorCode::kSettings);
     }
-    if (!take_option(option, axes, options)) {
+    if (!parse_option(option, axes, options)) {
       throw DeviceError(
           name + ": \"" + option + "\" is unknown, out of range or given twice; write ff:" + path +
               ",axes=1 for a wheel, ff:" + path + ",axes=2 for a joystick, ff:" + path +

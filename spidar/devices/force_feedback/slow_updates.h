@@ -76,7 +76,7 @@ class StickPosition {
 /// Exchanges are faster than updates, so a failed update is reported to one exchange only: the
 /// haptic loop gives up a device after 20 faults in a row, and a single failed update of a slow
 /// driver would last that long. Every exchange reports a fault when kFailures updates have failed
-/// in a row, or none has ended for kPatience_ns because the driver does not return. The device
+/// in a row, or none has ended for kTimeout_ns because the driver does not return. The device
 /// holds its last force meanwhile, so the loop must not take the device for a healthy one.
 ///
 /// The thread of the updates calls finish(); the thread of the exchanges calls everything else.
@@ -87,7 +87,7 @@ class UpdateWatch {
   static constexpr uint32_t kFailures = 3;
   /// Twice the time that the slowest drivers need, about 50 ms, and as long as other exchanges of a
   /// force-feedback device may last.
-  static constexpr int64_t kPatience_ns = 100'000'000;
+  static constexpr int64_t kTimeout_ns = 100'000'000;
 
   /// Call this before the first finish().
   void start(int64_t now_ns) noexcept {
@@ -113,7 +113,7 @@ class UpdateWatch {
     newest_.try_load(last_);  // keeps the previous result while a new one is being written
     const bool is_new = last_.failed != reported_;
     reported_ = last_.failed;
-    if (now_ns - last_.finished_ns > kPatience_ns) return LinkFault::kTimeout;
+    if (now_ns - last_.finished_ns > kTimeout_ns) return LinkFault::kTimeout;
     return is_new || last_.in_a_row >= kFailures ? last_.fault : LinkFault::kNone;
   }
 

@@ -31,7 +31,7 @@ LastWill::InputEvent event_of(const ff::EventBytes& bytes) noexcept {
   return {event->code, event->value};
 }
 
-std::array<uint8_t, sizeof(LastWill::InputEvent)> in_will(const ff::EventBytes& bytes) noexcept {
+std::array<uint8_t, sizeof(LastWill::InputEvent)> to_packet(const ff::EventBytes& bytes) noexcept {
   const LastWill::InputEvent kept = event_of(bytes);
   std::array<uint8_t, sizeof kept> packet{};
   std::memcpy(packet.data(), &kept, sizeof kept);
@@ -156,7 +156,7 @@ Transfer StickEffects::play(size_t effect) noexcept {
   return transfer;
 }
 
-LinkFault StickEffects::take_settings() noexcept {
+LinkFault StickEffects::apply_settings() noexcept {
   if (has_settings_ || !pulled_) return LinkFault::kNone;
   LinkFault fault = LinkFault::kNone;
   // A call that fails also counts, because the setting may have arrived nevertheless.
@@ -181,7 +181,7 @@ std::vector<ff::EventBytes> StickEffects::former_settings() const {
   return events;
 }
 
-void StickEffects::return_settings() noexcept {
+void StickEffects::restore_settings() noexcept {
   if (!std::exchange(settings_changed_, false)) return;
   for (const ff::EventBytes& event : former_settings_) {
     if (send(event).fault != LinkFault::kNone) return;
@@ -196,7 +196,7 @@ void StickEffects::return_settings_later() noexcept {
   } catch (const std::exception&) {
     return;  // the device was unplugged: its driver resets the settings when it is plugged in
   }
-  return_settings();
+  restore_settings();
   transport_->close();
 }
 
@@ -238,7 +238,7 @@ LinkFault StickEffects::read_and_set() noexcept {
   LinkFault fault = transport_->exchange({ff::kPosition}, bytes_of(position), soon_ns()).fault;
   if (fault != LinkFault::kNone) return fault;
   position_.update(position, now_ns());
-  fault = take_settings();
+  fault = apply_settings();
   if (fault == LinkFault::kNone) fault = set_one_level();
   return fault == LinkFault::kNone ? refresh() : fault;
 }
@@ -326,14 +326,14 @@ void StickEffects::end_effects() noexcept {
   if (!rests && !reopening_ && updates_ == Updates::kOwnThread) {
     sleep_until_ns(monotonic_now_ns() + kEffect_ms * kMs);
   }
-  if (!reopening_) return_settings();
+  if (!reopening_) restore_settings();
   effect_count_ = 0;
   transport_->close();
 }
 
 std::vector<LastWill> StickEffects::last_wills() const {
-  const auto first = in_will(ff::encode_play(effects_[0].number, false));
-  const auto last = in_will(ff::encode_play(effects_[effect_count_ - 1].number, false));
+  const auto first = to_packet(ff::encode_play(effects_[0].number, false));
+  const auto last = to_packet(ff::encode_play(effects_[effect_count_ - 1].number, false));
   std::vector<LastWill> will = wills(*transport_, {first, last});
   static_assert(1 + kCentring_ms / kUpdate_ms <= LastWill::kMaxSettings);
   static_assert(kUpdate_ms == kSetting_ms);

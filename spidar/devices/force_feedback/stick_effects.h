@@ -94,11 +94,11 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   /// Sets gain to the fraction that is used and autocentre to off, once forces are switched on:
   /// earlier programs or the driver may have left settings that scale the force or add to it. No
   /// level is set until the device has accepted both.
-  LinkFault take_settings() noexcept;
+  LinkFault apply_settings() noexcept;
   /// Returns the events that restore the settings: gain to full and, if the driver had turned it
   /// on, autocentre by a ramp. They must be sent kUpdate_ms apart.
   std::vector<ff::EventBytes> former_settings() const;
-  void return_settings() noexcept;
+  void restore_settings() noexcept;
   /// Restores the settings of a device that was closed for reopening, but not reopened.
   void return_settings_later() noexcept;
   bool thread_runs() const;
@@ -129,7 +129,7 @@ class StickEffects : public std::enable_shared_from_this<StickEffects> {
   std::atomic<bool> reopening_{false};
   std::atomic<bool> pulled_{false};    ///< whether forces were on since open()
   std::atomic<int64_t> cycled_ns_{0};  ///< time of the latest cycle()
-  bool has_settings_ = false;          ///< take_settings() has succeeded
+  bool has_settings_ = false;          ///< apply_settings() has succeeded
   bool settings_changed_ = false;  ///< not restored yet; since then, other openings may have been
   std::vector<ff::EventBytes> former_settings_;  ///< settings to restore on the open device
   UpdateWatch updated_;

@@ -155,7 +155,7 @@ class Inverse3 final : public Board {
   void receive(ByteView bytes) noexcept override {
     due_ = true;
     Eigen::Vector3d force_N;
-    if (inverse3::decode_force(bytes, state.id, force_N)) put_out_N(*motors_, force_N);
+    if (inverse3::decode_force(bytes, state.id, force_N)) set_force_N(*motors_, force_N);
   }
   size_t reply(MutableBytes bytes) noexcept override {
     if (!due_) return 0;

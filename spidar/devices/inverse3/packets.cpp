@@ -154,7 +154,7 @@ Writer& begin_device(Writer& writer, const State& device) noexcept {
   return writer.text("\"inverse3\":[{\"device_id\":\"").text(device.id).text("\",");
 }
 
-Writer& put_force(Writer& writer, const State& device, const Eigen::Vector3d& haply_N) noexcept {
+Writer& write_force(Writer& writer, const State& device, const Eigen::Vector3d& haply_N) noexcept {
   return writer.text("\"commands\":{\"set_cursor_force\":{\"")
       .text(device.version == Version::k35 ? "vector" : "values")
       .text("\":")
@@ -180,7 +180,7 @@ size_t encode_start(const State& device, MutableBytes bytes) noexcept {
     writer.text("\"configure\":{\"preset\":{\"preset\":\"arm_front_centered\"},")
         .text("\"basis\":{\"permutation\":\"XYZ\"}},");
   }
-  return put_force(writer, device, Eigen::Vector3d::Zero()).length();
+  return write_force(writer, device, Eigen::Vector3d::Zero()).length();
 }
 
 size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
@@ -192,7 +192,7 @@ size_t encode_force(const State& device, const Eigen::Vector3d& force_N,
   if (limited_N.norm() > kLargestForce_N) limited_N *= kLargestForce_N / limited_N.norm();
   Writer writer(bytes);
   writer.text("{");
-  return put_force(begin_device(writer, device), device, to_haply(limited_N)).length();
+  return write_force(begin_device(writer, device), device, to_haply(limited_N)).length();
 }
 
 bool decode_force(ByteView message, std::string_view id, Eigen::Vector3d& force_N) noexcept {

@@ -106,7 +106,7 @@ class Mouse final : public Board {
       milli_N[1] = static_cast<int>(std::lround(1000 * force_N.y()));
     }
     if (command == mouse::Command::kForce || command == mouse::Command::kStop) {
-      motors_->put_out(milli_N);
+      motors_->set_outputs(milli_N);
     }
   }
   size_t reply(MutableBytes bytes) noexcept override {

@@ -18,7 +18,7 @@ void begin(Command command, Report& report) noexcept {
   report[0] = static_cast<uint8_t>(command);
 }
 
-void put_float(Report& report, size_t index, float value) noexcept {
+void write_float(Report& report, size_t index, float value) noexcept {
   uint32_t bits = 0;
   static_assert(sizeof bits == sizeof value);
   std::memcpy(&bits, &value, sizeof bits);
@@ -40,10 +40,10 @@ void encode_query(Report& report) noexcept {
 
 void encode_start(Report& report) noexcept {
   begin(Command::kStart, report);
-  put_float(report, 0, static_cast<float>(kMinForce_N));
-  put_float(report, 1, static_cast<float>(kMaxForce_N));
-  put_float(report, 2, kDutyA);
-  put_float(report, 3, kDutyB);
+  write_float(report, 0, static_cast<float>(kMinForce_N));
+  write_float(report, 1, static_cast<float>(kMaxForce_N));
+  write_float(report, 2, kDutyA);
+  write_float(report, 3, kDutyB);
 }
 
 void encode_force(const Eigen::Vector2d& force_N, Report& report) noexcept {
@@ -51,9 +51,9 @@ void encode_force(const Eigen::Vector2d& force_N, Report& report) noexcept {
   const double total_N = std::hypot(force_N.x(), force_N.y());
   if (!std::isfinite(total_N) || total_N <= 0) return;
   // Numbers 0 and 1 are the position of the grip, which no sensor measures.
-  put_float(report, 2, static_cast<float>(std::fmin(total_N, kMaxForce_N)));
-  put_float(report, 3, static_cast<float>(force_N.x() / total_N));
-  put_float(report, 4, static_cast<float>(force_N.y() / total_N));
+  write_float(report, 2, static_cast<float>(std::fmin(total_N, kMaxForce_N)));
+  write_float(report, 3, static_cast<float>(force_N.x() / total_N));
+  write_float(report, 4, static_cast<float>(force_N.y() / total_N));
 }
 
 void encode_stop(Report& report) noexcept {

@@ -145,8 +145,8 @@ Wrench GripDynamics::string_wrench(const GripDynamics::State& state) const noexc
   return {wrench.head<3>(), wrench.tail<3>()};
 }
 
-const Pose& LedHand::advance(const Pose& rest, const std::optional<Eigen::Vector3d>& to_m,
-                             double dt_s) noexcept {
+const Pose& GuidedHand::advance(const Pose& rest, const std::optional<Eigen::Vector3d>& to_m,
+                                double dt_s) noexcept {
   if (!away_) pose_ = rest;
   if (!away_ && !to_m) return pose_;
   const Eigen::Vector3d to_go_m = to_m.value_or(rest.position_m) - pose_.position_m;

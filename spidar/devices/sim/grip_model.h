@@ -85,7 +85,7 @@ class DelayedTensions {
 
   /// Adds a command at `time_ns`, which must not decrease; the command takes effect at `time_ns` +
   /// `delay_ns`. When the queue is full, the oldest command takes effect early.
-  void put(int64_t time_ns, int64_t delay_ns, const StringVector& tension_N) noexcept {
+  void push(int64_t time_ns, int64_t delay_ns, const StringVector& tension_N) noexcept {
     if (count_ == kCapacity) drop();
     waiting_[(first_ + count_++) % kCapacity] = {time_ns + delay_ns, tension_N};
   }
@@ -122,7 +122,7 @@ class DelayedTensions {
 
 /// Moves the hand towards its target at a limited speed. Without a target the hand returns to its
 /// resting pose, and then stays exactly there.
-class LedHand {
+class GuidedHand {
  public:
   /// The speed of a brisk stroke. People explore surfaces at 0.01 … 0.25 m/s (R. Klatzky and S.
   /// Lederman, Tactile roughness perception with a rigid link interposed between skin and surface,

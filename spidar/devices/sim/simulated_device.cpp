@@ -42,13 +42,13 @@ struct SimulatedDevice::Impl {
         dynamics(of.geometry, of.max_tension_N(), model),
         zero_length_m(of.zero_count_length_m()) {}
 
-  void put_out(const MotorVolts& volts) noexcept {
+  void set_volts(const MotorVolts& volts) noexcept {
     StringVector target_N = StringVector::Zero();
     for (int i = 0; i < profile.geometry.count; ++i) {
       const auto k = static_cast<size_t>(i);
       target_N[i] = settled_tension_N(volts.volt[k], profile.drives[k], profile);
     }
-    delayed.put(time_ns, delay_ns, target_N);
+    delayed.push(time_ns, delay_ns, target_N);
   }
 
   void advance(int64_t elapsed_ns) noexcept {
@@ -59,7 +59,7 @@ struct SimulatedDevice::Impl {
       const StringVector acting_N = delayed.at(time_ns);
       const int64_t step_ns = std::min(end_ns, delayed.next_ns()) - time_ns;
       const double step_s = 1e-9 * static_cast<double>(step_ns);
-      dynamics.advance(acting_N, led_hand.advance(hand, lead_to_m, step_s), step_s, state);
+      dynamics.advance(acting_N, guided_hand.advance(hand, lead_to_m, step_s), step_s, state);
       time_ns += step_ns;
     }
   }
@@ -119,7 +119,7 @@ struct SimulatedDevice::Impl {
   int64_t last_ns = 0;
   Pose hand;
   std::optional<Eigen::Vector3d> lead_to_m;
-  LedHand led_hand;
+  GuidedHand guided_hand;
   GripDynamics::State state;
   DelayedTensions delayed;
   // All threads share these members.
@@ -155,7 +155,7 @@ void SimulatedDevice::open() {
   impl_->time_ns = 0;
   impl_->last_ns = impl_->clock();
   impl_->state = {};
-  impl_->led_hand = {};
+  impl_->guided_hand = {};
   impl_->delayed.clear();
   impl_->open = true;
   impl_->publish();
@@ -169,7 +169,7 @@ LinkFault SimulatedDevice::exchange(const MotorVolts& volts, DeviceReading& read
     return fault;
   }
   impl_->advance(impl_->elapsed_ns());
-  if (fault != LinkFault::kTimeout) impl_->put_out(volts);
+  if (fault != LinkFault::kTimeout) impl_->set_volts(volts);
   impl_->publish();
   if (fault == LinkFault::kNone) {
     impl_->read_counters(reading);

@@ -66,9 +66,9 @@ class SimulatedDevice final : public StringDevice {
   /// ignored. Any thread.
   void set_hand(const Pose& pose) noexcept;
 
-  /// Moves the hand to a position in the device frame, at most at LedHand::kFastest_m_s and within
-  /// the box of the string exits. Without a position, the hand returns to the pose of set_hand(). A
-  /// position that is not finite is ignored. Any thread.
+  /// Moves the hand to a position in the device frame, at most at GuidedHand::kFastest_m_s and
+  /// within the box of the string exits. Without a position, the hand returns to the pose of
+  /// set_hand(). A position that is not finite is ignored. Any thread.
   void lead_hand(const std::optional<Eigen::Vector3d>& to_m) noexcept;
 
   /// Makes every exchange return this fault until a call with kNone. Time goes on meanwhile. With

@@ -32,7 +32,7 @@ class SimulatedMotors final : public Motors {
   }
   ~SimulatedMotors() override { device_.close(); }
 
-  void put_out(const std::array<int, kMaxStrings>& digits) noexcept override {
+  void set_outputs(const std::array<int, kMaxStrings>& digits) noexcept override {
     MotorVolts volts;
     for (size_t i = 0; i < digits.size(); ++i) volts.volt[i] = dac_.volt(digits[i]);
     device_.exchange(volts, reading_);

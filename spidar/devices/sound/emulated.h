@@ -25,7 +25,7 @@ class Sound final : public Board {
     for (size_t i = 0; i < sound::kMaxChannels; ++i) {
       digits[i] = static_cast<int>(std::lround(1000 * levels.level[i]));
     }
-    motors_->put_out(digits);
+    motors_->set_outputs(digits);
     due_ = true;
   }
   size_t reply(MutableBytes bytes) noexcept override {

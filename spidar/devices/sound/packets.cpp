@@ -44,7 +44,8 @@ int number_in(const std::string& text, int least, int most) {
 }
 
 /// Returns false for a text that is not an option, and for an option that was given before.
-bool take_option(const std::string& option, Settings& settings, bool& has_carrier, bool& has_gain) {
+bool parse_option(const std::string& option, Settings& settings, bool& has_carrier,
+                  bool& has_gain) {
   const size_t equals = option.find('=');
   if (equals == std::string::npos || equals + 1 == option.size()) return false;
   const std::string key = option.substr(0, equals), value = option.substr(equals + 1);
@@ -80,7 +81,7 @@ Settings Settings::parse(const std::string& name, const std::string& text) {
     const size_t end = text.find(',', comma + 1);
     const std::string option =
         text.substr(comma + 1, end == std::string::npos ? end : end - comma - 1);
-    if (!take_option(option, settings, has_carrier, has_gain)) {
+    if (!parse_option(option, settings, has_carrier, has_gain)) {
       const std::string card = "sound:" + settings.card;
       throw DeviceError(
           name + ": \"" + option + "\" is unknown, out of range or given twice; write " + card +

@@ -38,7 +38,7 @@ class SoundTransport::Pcm {
 
   /// Waits until there may be room for a block. Returns how many frames play before the block;
   /// nothing when there is no room; ALSA's error, below 0.
-  std::optional<snd_pcm_sframes_t> wait_for_room() noexcept;
+  std::optional<snd_pcm_sframes_t> wait_for_space() noexcept;
   /// Returns ALSA's error, or 0.
   int write(const uint8_t* block) noexcept;
   /// Continues after an error. Returns false if that is not possible.
@@ -154,8 +154,8 @@ int SoundTransport::Pcm::set_software() {
   return error >= 0 ? snd_pcm_sw_params(handle_, software) : error;
 }
 
-std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_room() noexcept {
-  const int woken = snd_pcm_wait(handle_, kPatience_ms);
+std::optional<snd_pcm_sframes_t> SoundTransport::Pcm::wait_for_space() noexcept {
+  const int woken = snd_pcm_wait(handle_, kTimeout_ms);
   if (woken == 0) return std::nullopt;
   snd_pcm_sframes_t free = 0, waiting = 0;
   const int error = woken < 0 ? woken : snd_pcm_avail_delay(handle_, &free, &waiting);
@@ -188,7 +188,7 @@ void SoundTransport::Pcm::drain() noexcept {
   snd_pcm_sframes_t left = 0;
   if (snd_pcm_delay(handle_, &left) == 0) {
     sleep_until_ns(monotonic_now_ns() +
-                   std::clamp<int64_t>(ns_of(left), 0, 2 * kPatience_ms * kMillisecond_ns));
+                   std::clamp<int64_t>(ns_of(left), 0, 2 * kTimeout_ms * kMillisecond_ns));
   }
   snd_pcm_drop(handle_);
 }
@@ -255,9 +255,9 @@ void SoundTransport::play() noexcept {
   Fed fed;
   int64_t written_ns = monotonic_now_ns();
   while (!stop_ || !carrier.rests()) {
-    const std::optional<snd_pcm_sframes_t> before = pcm_->wait_for_room();
+    const std::optional<snd_pcm_sframes_t> before = pcm_->wait_for_space();
     const int64_t now_ns = monotonic_now_ns(), idle_ns = now_ns - written_ns;
-    if (idle_ns > pcm_->held_ns() + kPatience_ms * kMillisecond_ns) {
+    if (idle_ns > pcm_->held_ns() + kTimeout_ms * kMillisecond_ns) {
       if (stop_) break;
       fault_ = LinkFault::kTimeout;
     }

@@ -28,7 +28,7 @@ class SoundTransport final : public Transport {
   /// The buffer of a card that accepts short periods.
   static constexpr int kBuffer_ms = kAhead_ms + sound::kBlock_ms;
   /// A card has a fault if it takes no sound for this time beyond the playing time of its buffer.
-  static constexpr int kPatience_ms = 100;
+  static constexpr int kTimeout_ms = 100;
   /// A card that takes nothing for this time is opened again.
   static constexpr int kHopeless_ms = 1000;
 

@@ -132,7 +132,7 @@ LinkFault Uart::cycle(const MotorVolts& volts, DeviceReading& reading,
                       int64_t deadline_ns) noexcept {
   std::array<uint32_t, kMaxStrings> raw{};
   const LinkFault fault = exchange_all(volts, raw, deadline_ns);
-  return fault == LinkFault::kNone ? take(raw, reading) : fault;
+  return fault == LinkFault::kNone ? update_counts(raw, reading) : fault;
 }
 
 void Uart::recover() noexcept {

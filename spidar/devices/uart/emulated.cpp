@@ -35,7 +35,7 @@ void Uart::begin(uint8_t header) noexcept {
   }
 }
 
-void Uart::put_reply(ByteView reply) noexcept {
+void Uart::append_reply(ByteView reply) noexcept {
   const size_t length = std::min(reply.size, reply_.size() - due_);
   std::copy_n(reply.data, length, reply_.begin() + static_cast<long>(due_));
   due_ += length;
@@ -49,11 +49,11 @@ void Uart::end_of_command() noexcept {
   if (command.u8(0) == uart_motor::header(station.id, uart_motor::Command::kBoardInfo)) {
     std::array<uint8_t, uart_motor::kInfoLength> info{};
     uart_motor::encode_info(station.info, station.id, info);
-    put_reply(info);
+    append_reply(info);
   } else if (uart_motor::decode_current(command, station.id, station.info, digits)) {
     const size_t motors = std::min<size_t>(station.info.motors, kMaxStrings - first_);
     std::copy_n(digits.begin(), motors, digits_.begin() + static_cast<long>(first_));
-    motors_->put_out(digits_);
+    motors_->set_outputs(digits_);
     const std::array<int32_t, kMaxStrings> counts = motors_->counts();
     uart_motor::Reading reading;
     for (size_t i = 0; i < motors; ++i) {
@@ -61,7 +61,7 @@ void Uart::end_of_command() noexcept {
     }
     std::array<uint8_t, uart_motor::kMaxReplyLength> reply{};
     const size_t length = uart_motor::encode_reading(reading, station.id, station.info, reply);
-    put_reply({reply.data(), length});
+    append_reply({reply.data(), length});
   }
 }
 

@@ -29,7 +29,7 @@ class Uart final : public Board {
  private:
   void begin(uint8_t header) noexcept;
   void end_of_command() noexcept;
-  void put_reply(ByteView reply) noexcept;
+  void append_reply(ByteView reply) noexcept;
 
   const std::vector<Station> stations_;
   std::array<int, kMaxStrings> digits_{};

@@ -5,16 +5,16 @@
 #include "tests/spidar/simulated_device_test.h"
 #include "tests/support/test.h"
 
-namespace spidar::test::led_hand_test {
+namespace spidar::test::guided_hand_test {
 namespace {
 
 constexpr double kTick_s = 1e-3;
 /// Sums of hundreds of steps of numbers below 0.1.
 constexpr double kRounding_m = 1e-14;
 
-TEST(LedHand, IsWhereItRestsAsLongAsNobodyLeadsIt) {
+TEST(GuidedHand, IsWhereItRestsAsLongAsNobodyLeadsIt) {
   std::mt19937 random(3);
-  LedHand hand;
+  GuidedHand hand;
   for (int tick = 0; tick < 100; ++tick) {
     const Pose rest = hand_at(random);  // leaps from one to the next
     const Pose& now = hand.advance(rest, {}, kTick_s);
@@ -23,19 +23,19 @@ TEST(LedHand, IsWhereItRestsAsLongAsNobodyLeadsIt) {
   }
 }
 
-TEST(LedHand, GoesThereAndBackNoFasterThanAHand) {
+TEST(GuidedHand, GoesThereAndBackNoFasterThanAHand) {
   Pose rest;
   rest.position_m = {0, 0, 0.004};
   const Eigen::Vector3d there_m(0.03, -0.02, -0.006);
-  LedHand hand;
+  GuidedHand hand;
   Eigen::Vector3d before_m = rest.position_m;
   const auto follow = [&](const std::optional<Eigen::Vector3d>& to_m) {
     const Eigen::Vector3d now_m = hand.advance(rest, to_m, kTick_s).position_m;
-    EXPECT_LE((now_m - before_m).norm(), LedHand::kFastest_m_s * kTick_s + kRounding_m);
+    EXPECT_LE((now_m - before_m).norm(), GuidedHand::kFastest_m_s * kTick_s + kRounding_m);
     before_m = now_m;
   };
   const double way_m = (there_m - rest.position_m).norm();
-  const int ticks = static_cast<int>(way_m / (LedHand::kFastest_m_s * kTick_s));
+  const int ticks = static_cast<int>(way_m / (GuidedHand::kFastest_m_s * kTick_s));
   for (int tick = 0; tick < ticks; ++tick) follow(there_m);
   EXPECT_GT((before_m - there_m).norm(), kRounding_m) << "not before its time";
   follow(there_m);
@@ -85,4 +85,4 @@ TEST_F(SimulatedDeviceTest, AHandMayBeLedByAnotherThread) {
 }
 
 }  // namespace
-}  // namespace spidar::test::led_hand_test
+}  // namespace spidar::test::guided_hand_test
