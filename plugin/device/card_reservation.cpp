@@ -80,11 +80,11 @@ std::string numbered(std::string name, int card) {
 CardReservation::CardReservation(int card)
     : name_(numbered("org.freedesktop.ReserveDevice1.Audio", card)),
       path_(numbered("/org/freedesktop/ReserveDevice1/Audio", card)),
-      until_us_(g_get_monotonic_time() + gint64{1000} * kPatience_ms) {}
+      until_us_(g_get_monotonic_time() + gint64{1000} * kAnswerTimeout_ms) {}
 
 int CardReservation::left_ms() const {
   const gint64 left_us = until_us_ - g_get_monotonic_time();
-  return static_cast<int>(std::clamp<gint64>(left_us / 1000, 1, kPatience_ms));
+  return static_cast<int>(std::clamp<gint64>(left_us / 1000, 1, kAnswerTimeout_ms));
 }
 
 CardReservation::~CardReservation() {
@@ -97,7 +97,7 @@ CardReservation::~CardReservation() {
   g_dbus_connection_close(bus_.get(), nullptr, nullptr, nullptr);  // does not wait
 }
 
-std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& refused) {
+std::unique_ptr<CardReservation> CardReservation::reserve(int card, std::string& refused) {
   refused.clear();
   const std::string address = bus_address();
   if (address.empty()) return nullptr;
@@ -108,7 +108,7 @@ std::unique_ptr<CardReservation> CardReservation::take(int card, std::string& re
   g_dbus_connection_add_filter(taken->bus_.get(), answer, new std::string(taken->path_),
                                [](gpointer path) { delete static_cast<std::string*>(path); });
   if (taken->request_name(kDoNotQueue, refused)) return taken;
-  if (refused.empty() && taken->is_given_away(refused) &&
+  if (refused.empty() && taken->request_release(refused) &&
       taken->request_name(kDoNotQueue | kReplace, refused)) {
     return taken;
   }
@@ -125,7 +125,7 @@ bool CardReservation::request_name(guint32 flags, std::string& refused) const {
   return code == kIsOwner;
 }
 
-bool CardReservation::is_given_away(std::string& refused) const {
+bool CardReservation::request_release(std::string& refused) const {
   const Ref<GVariant> result = call(name_.c_str(), path_.c_str(), kInterface, "RequestRelease",
                                     g_variant_new("(i)", kPriority), "(b)", refused);
   gboolean given = FALSE;

@@ -16,11 +16,11 @@ namespace spidar {
 class CardReservation {
  public:
   /// The time limit for the whole reservation, in which the bus and the owner must answer.
-  static constexpr int kPatience_ms = 3000;
+  static constexpr int kAnswerTimeout_ms = 3000;
 
   /// `card` is its ALSA number. Returns null, with the reason in `refused`, if the owner does not
   /// release the card; null without a reason if there is no session bus, and hence no owner.
-  static std::unique_ptr<CardReservation> take(int card, std::string& refused);
+  static std::unique_ptr<CardReservation> reserve(int card, std::string& refused);
   ~CardReservation();
   CardReservation(const CardReservation&) = delete;
   CardReservation& operator=(const CardReservation&) = delete;
@@ -30,7 +30,7 @@ class CardReservation {
 
   int left_ms() const;
   bool request_name(guint32 flags, std::string& refused) const;
-  bool is_given_away(std::string& refused) const;
+  bool request_release(std::string& refused) const;
   Ref<GVariant> call(const char* to, const char* path, const char* interface, const char* method,
                      GVariant* arguments, const char* result_type, std::string& refused) const;
   static GDBusMessage* answer(GDBusConnection* bus, GDBusMessage* message, gboolean incoming,

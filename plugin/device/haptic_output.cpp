@@ -126,7 +126,7 @@ std::unique_ptr<CardReservation> reserve(GstElement* element, const std::string&
   const std::optional<int> card = card_number(name.rest.substr(0, name.rest.find(',')));
   if (!card) return nullptr;
   std::string refused;
-  std::unique_ptr<CardReservation> taken = CardReservation::take(*card, refused);
+  std::unique_ptr<CardReservation> taken = CardReservation::reserve(*card, refused);
   if (!refused.empty()) {
     GST_INFO_OBJECT(element, "the sound server keeps %s: %s", device.c_str(), refused.c_str());
   }

@@ -110,7 +110,7 @@ void FilePipeline::pause() const {
   gst_bus_set_flushing(messages.get(), FALSE);
 }
 
-void FilePipeline::hear_errors(std::function<void(const std::string&)> take) {
+void FilePipeline::on_error(std::function<void(const std::string&)> take) {
   take_error_ = std::move(take);
   gst_bus_set_sync_handler(bus().get(), handle, this, nullptr);
 }

@@ -41,7 +41,7 @@ class FilePipeline {
   GstMessageType play_until(GstMessageType awaited, GstClockTime limit = GST_CLOCK_TIME_NONE) const;
   /// Calls `take` with each error's text, in the thread that reports it. Call this before
   /// play_until().
-  void hear_errors(std::function<void(const std::string&)> take);
+  void on_error(std::function<void(const std::string&)> take);
   /// The state of a thread that waits for data, between two calls of check().
   struct Progress {
     uint64_t read = 0;

@@ -46,7 +46,7 @@ class FilmSearch {
  public:
   /// Throws std::runtime_error when the folder itself cannot be read.
   explicit FilmSearch(const std::string& folder) : folder_(folder) {
-    if (const std::error_code error = look_into(folder)) {
+    if (const std::error_code error = search_folder(folder)) {
       throw std::runtime_error(folder + ": cannot be read: " + error.message());
     }
     std::sort(found_.begin(), found_.end(), [](const ListedFilm& a, const ListedFilm& b) {
@@ -81,16 +81,16 @@ class FilmSearch {
   }
 
  private:
-  std::error_code look_into(const fs::path& folder) {
+  std::error_code search_folder(const fs::path& folder) {
     std::error_code error;
     for (fs::directory_iterator at(folder, error); !error && at != fs::directory_iterator();
          at.increment(error)) {
-      look_at(*at);
+      add_entry(*at);
     }
     return error;
   }
 
-  void look_at(const fs::directory_entry& entry) {
+  void add_entry(const fs::directory_entry& entry) {
     std::error_code gone;  // it may be renamed or removed in the meantime
     const bool is_link = entry.is_symlink(gone);
     if (entry.is_directory(gone)) {
@@ -99,7 +99,7 @@ class FilmSearch {
         ++passed_over_["hidden folder"];
       } else if (is_link) {
         ++passed_over_["linked folder"];
-      } else if (const std::error_code error = look_into(entry.path())) {
+      } else if (const std::error_code error = search_folder(entry.path())) {
         unreadable_.push_back(entry.path().string() + ", which cannot be read (" + error.message() +
                               ")");
       }

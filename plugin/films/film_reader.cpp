@@ -142,8 +142,8 @@ class FilmReader {
   FilmReader(const std::string& path, const std::atomic<bool>* stopped)
       : file_("filesrc name=source ! parsebin name=parse", path, stopped),
         parser_(file_.find("parse")) {
-    g_signal_connect(parser_, "pad-added", G_CALLBACK(look), this);
-    file_.link_streams([this](GstPad* pad) { return take_stream(pad); });
+    g_signal_connect(parser_, "pad-added", G_CALLBACK(on_pad_added), this);
+    file_.link_streams([this](GstPad* pad) { return select_stream(pad); });
   }
   ~FilmReader() { file_.stop(); }
   FilmReader(const FilmReader&) = delete;
@@ -197,7 +197,7 @@ class FilmReader {
     return std::move(film_);
   }
 
-  static void look(GstElement*, GstPad* pad, gpointer user) {
+  static void on_pad_added(GstElement*, GstPad* pad, gpointer user) {
     static_cast<FilmReader*>(user)->content_of_stream(pad);
   }
 
@@ -210,7 +210,7 @@ class FilmReader {
     return content;
   }
 
-  GstElement* take_stream(GstPad* pad) {
+  GstElement* select_stream(GstPad* pad) {
     if (content_of_stream(pad) != StreamContent::kVideo) return nullptr;
     const Ref<GstCaps> caps(caps_of(pad));
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -225,21 +225,21 @@ class FilmReader {
     sink_ = file_.add_fakesink();
     framing_ = framing_of(caps.get());
     g_object_set(sink_, "signal-handoffs", TRUE, nullptr);
-    g_signal_connect(sink_, "handoff", G_CALLBACK(take_packet), this);
+    g_signal_connect(sink_, "handoff", G_CALLBACK(on_packet), this);
     return sink_;
   }
 
-  static void take_packet(GstElement* sink, GstBuffer* packet, GstPad* pad, gpointer user) {
-    static_cast<FilmReader*>(user)->take(sink, packet, pad);
+  static void on_packet(GstElement* sink, GstBuffer* packet, GstPad* pad, gpointer user) {
+    static_cast<FilmReader*>(user)->add_packet(sink, packet, pad);
   }
 
-  void take(GstElement* sink, GstBuffer* packet, GstPad* pad) {
+  void add_packet(GstElement* sink, GstBuffer* packet, GstPad* pad) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (part_ == Part::kNone || sink != sink_) return;
     const GstClockTime time = stream_time_of(pad, packet);
-    if (GST_CLOCK_TIME_IS_VALID(time)) take_time(static_cast<int64_t>(time), packet);
+    if (GST_CLOCK_TIME_IS_VALID(time)) add_time(static_cast<int64_t>(time), packet);
     bytes_ += gst_buffer_get_size(packet);
-    if (part_ == Part::kStart) take_picture(packet, GST_CLOCK_TIME_IS_VALID(time) ? time : 0);
+    if (part_ == Part::kStart) add_hash(packet, GST_CLOCK_TIME_IS_VALID(time) ? time : 0);
     const bool enough = part_ == Part::kStart
                             ? film_.packets.size() >= kStartPackets || bytes_ > kStartBytes
                             : bytes_ > kEndBytes;
@@ -249,7 +249,7 @@ class FilmReader {
         sink_, gst_message_new_application(GST_OBJECT(sink_), gst_structure_new_empty("enough")));
   }
 
-  void take_picture(GstBuffer* packet, GstClockTime time) {
+  void add_hash(GstBuffer* packet, GstClockTime time) {
     GstMapInfo map;
     if (!gst_buffer_map(packet, &map, GST_MAP_READ)) return;
     film_.packets.push_back(
@@ -257,7 +257,7 @@ class FilmReader {
     gst_buffer_unmap(packet, &map);
   }
 
-  void take_time(int64_t time_ns, GstBuffer* packet) {
+  void add_time(int64_t time_ns, GstBuffer* packet) {
     if (part_ == Part::kStart) times_ns_.push_back(time_ns);
     if (time_ns < last_ns_) return;
     last_ns_ = time_ns;

@@ -15,14 +15,14 @@
 namespace spidar::filter {
 namespace {
 
-struct FaultWords {
+struct FaultTexts {
   const char* why;      // in the log
   const char* warning;  // null: no warning
   const char* advice;
 };
 
 /// In the order of the enumeration. %1$d is the shortest side of a picture and %2$d the longest.
-constexpr FaultWords kFaultWords[] = {
+constexpr FaultTexts kFaultTexts[] = {
     {"a haptic track is played", nullptr, nullptr},
     {"it has no timestamp",
      "Frames without a timestamp cannot be felt in time; they are only shown.",
@@ -53,16 +53,16 @@ constexpr FaultWords kFaultWords[] = {
      "area=X,Y,WIDTH,HEIGHT counts pixels of the frame from its top left corner; area=whole is all "
      "of it."},
 };
-static_assert(std::size(kFaultWords) == static_cast<size_t>(FrameReport::Fault::kSmallArea) + 1);
+static_assert(std::size(kFaultTexts) == static_cast<size_t>(FrameReport::Fault::kSmallArea) + 1);
 
-const FaultWords& words_for(FrameReport::Fault fault) {
-  return kFaultWords[static_cast<size_t>(fault)];
+const FaultTexts& texts_of(FrameReport::Fault fault) {
+  return kFaultTexts[static_cast<size_t>(fault)];
 }
 
 }  // namespace
 
-const char* words_of(FrameReport::Fault fault) {
-  return words_for(fault).why;
+const char* fault_text(FrameReport::Fault fault) {
+  return texts_of(fault).why;
 }
 
 void BusWarnings::start() {
@@ -93,13 +93,13 @@ void BusWarnings::check_trace(int error) {
 }
 
 void BusWarnings::check_frame(const FrameReport& report) {
-  const FaultWords& words = words_for(report.fault);
+  const FaultTexts& texts = texts_of(report.fault);
   const guint bit = 1u << static_cast<guint>(report.fault);
-  if (!words.warning || (frame_faults_ & bit)) return;
+  if (!texts.warning || (frame_faults_ & bit)) return;
   frame_faults_ |= bit;
   GST_ELEMENT_WARNING(element_, STREAM, FORMAT,
-                      (words.warning, FrameLuma::kSmallestSide, FrameLuma::kLargestSide),
-                      ("%s", words.advice));
+                      (texts.warning, FrameLuma::kSmallestSide, FrameLuma::kLargestSide),
+                      ("%s", texts.advice));
 }
 
 void BusWarnings::check_touch(const HapticOutput& output, const FrameReport& report,

@@ -68,6 +68,6 @@ class BusWarnings {
 };
 
 /// Returns why a frame is not analysed, for the log.
-const char* words_of(FrameReport::Fault fault);
+const char* fault_text(FrameReport::Fault fault);
 
 }  // namespace spidar::filter

@@ -30,7 +30,7 @@ static void gst_spidar_motion_before_transform(GstBaseTransform* trans, GstBuffe
   MotionState& state = *self->state;
   const GstClockTime time = spidar::stream_time_of(trans->segment, GST_BUFFER_PTS(buffer));
   if (GST_CLOCK_TIME_IS_VALID(time)) gst_object_sync_values(GST_OBJECT(trans), time);
-  const bool has_new_rules = state.choice.is_to_read();
+  const bool has_new_rules = state.choice.must_read();
   std::string feel;
   GST_OBJECT_LOCK(self);
   state.frame_settings = state.settings;
@@ -66,7 +66,8 @@ static void complete_settings(MotionState& state, const GstVideoFrame& frame) {
 static void log_frame(GstSpidarMotionFilter* self, const FrameReport& report, GstBuffer* buffer) {
   if (!report.has_wrench()) {
     GST_DEBUG_OBJECT(self, "frame at %" GST_TIME_FORMAT " is not analysed: %s",
-                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)), spidar::filter::words_of(report.fault));
+                     GST_TIME_ARGS(GST_BUFFER_PTS(buffer)),
+                     spidar::filter::fault_text(report.fault));
     return;
   }
   const spidar::Frame& found = report.frame;
@@ -257,7 +258,7 @@ static gboolean gst_spidar_motion_src_event(GstBaseTransform* trans, GstEvent* e
     process_mouse(GST_SPIDAR_MOTION(trans), event);
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_RECONFIGURE) {
     GST_DEBUG_OBJECT(trans, "reconfigured: looking for the sink again");
-    state.feed.output.follower().look_for_sink();
+    state.feed.output.follower().find_sink();
   } else if (GST_EVENT_TYPE(event) == GST_EVENT_INSTANT_RATE_SYNC_TIME) {
     gdouble multiplier;
     GstClockTime running_time, upstream;

@@ -145,7 +145,7 @@ bool holds_picture(const GstVideoFrame& frame) {
   return true;
 }
 
-bool FrameLuma::takes(const GstVideoInfo& info) {
+bool FrameLuma::supports(const GstVideoInfo& info) {
   const auto fits = [](int side) { return side >= kSmallestSide && side <= kLargestSide; };
   return fits(GST_VIDEO_INFO_WIDTH(&info)) && fits(GST_VIDEO_INFO_HEIGHT(&info));
 }

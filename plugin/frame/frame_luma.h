@@ -79,7 +79,7 @@ class FrameLuma {
   /// In pixels; a crop may leave less.
   static constexpr int kSmallestSide = 16;
   static constexpr int kLargestSide = 8192;
-  static bool takes(const GstVideoInfo& info);
+  static bool supports(const GstVideoInfo& info);
 
   /// The view is valid until the next call and for as long as the frame is mapped. It is empty (no
   /// data) when the crop leaves too little.

@@ -39,7 +39,7 @@ int thickness(double width_px) {
 }
 
 /// Turns a shown picture into the orientation in which the frame is stored.
-cv::Mat coded(cv::Mat shown, const Orientation& turn) {
+cv::Mat to_stored_orientation(cv::Mat shown, const Orientation& turn) {
   const Eigen::Vector2d right = turn.to_stored(Eigen::Vector2d(1, 0));
   const Eigen::Vector2d down = turn.to_stored(Eigen::Vector2d(0, 1));
   if (turn.is_sideways()) cv::transpose(shown, shown);
@@ -160,7 +160,7 @@ void Sheet::text(const std::string& text, const Eigen::Vector2d& beyond_px,
   const cv::Point left(margin, margin + size.height);
   cv::putText(label, text, left, kFont, scale, bgra(kBlack), 3 * line, cv::LINE_AA);
   cv::putText(label, text, left, kFont, scale, bgra(kWhite), line, cv::LINE_AA);
-  label = coded(label, turn);
+  label = to_stored_orientation(label, turn);
   const Eigen::Vector2d label_px(label.cols, label.rows);
   const Eigen::Vector2d most_px = size_px() - label_px;
   if (!is_near(beyond_px) || most_px.minCoeff() < 0) return;

@@ -133,7 +133,7 @@ void PlaybackFollower::set_latency(GstClockTime latency) {
   refresh_locked();
 }
 
-void PlaybackFollower::look_for_sink() {
+void PlaybackFollower::find_sink() {
   // The next refresh searches, because this thread is linking pads.
   const std::lock_guard<std::mutex> lock(mutex_);
   sink_outdated_ = true;

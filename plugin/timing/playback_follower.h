@@ -70,7 +70,7 @@ class PlaybackFollower {
   /// Sets the running time that the sink has stepped over: it shows later frames that much earlier.
   void set_skipped(int64_t skipped_ns);
   /// Call this when links behind the element have changed.
-  void look_for_sink();
+  void find_sink();
   void expect_base_time();
   /// Reads the pipeline's clock now, as the thread does regularly.
   void refresh();

@@ -40,9 +40,9 @@ class PlaybackSync {
   /// until the pipeline has prerolled and distributes another one. Until then nothing is on the
   /// screen. A sink that does not preroll keeps its base time, which counts again after 3 s.
   void expect_base_time(GstElement* element) {
-    constexpr int64_t kPatience_ns = 3'000'000'000;
+    constexpr int64_t kOutdated_ns = 3'000'000'000;
     outdated_base_time_ = gst_element_get_base_time(element);
-    outdated_until_ns_ = now_() + kPatience_ns;
+    outdated_until_ns_ = now_() + kOutdated_ns;
   }
 
   /// The delay of the force after the running time of its frame; signed.

@@ -88,7 +88,7 @@ std::string lost_in(const std::string& path, const tracks::Summary& summary,
 }
 
 /// The channel with the largest rms value, as a fraction of its full scale.
-size_t liveliest_channel(const tracks::Summary& summary) {
+size_t strongest_channel(const tracks::Summary& summary) {
   size_t most = kUsualAxis;
   for (size_t i = 0; i < kTrackChannels; ++i) {
     if (summary.channels[i].rms > summary.channels[most].rms) most = i;
@@ -105,11 +105,11 @@ size_t channel_of(const std::string& axis) {
 
 /// A remark on the channel of a funscript, as a line; empty: none.
 std::string about_axis(const tracks::Summary& summary, size_t axis, bool is_chosen) {
-  const size_t liveliest = liveliest_channel(summary);
+  const size_t strongest = strongest_channel(summary);
   const std::string name = tracks::channel_name(axis);
-  if (summary.channels[liveliest].peak == 0) return "the whole track is at rest\n";
+  if (summary.channels[strongest].peak == 0) return "the whole track is at rest\n";
   if (summary.channels[axis].peak == 0) {
-    return "axis " + name + " is at rest; --axis " + tracks::channel_name(liveliest) +
+    return "axis " + name + " is at rest; --axis " + tracks::channel_name(strongest) +
            " has the most motion\n";
   }
   return is_chosen ? "" : "axis " + name + ", which has the most motion; --axis chooses another\n";
@@ -152,7 +152,7 @@ void check_use(const ConvertOptions& options) {
 /// their directions.
 void write_axes(const ConvertOptions& options, const SampleFile& samples,
                 const tracks::Summary& summary) {
-  const size_t main = liveliest_channel(summary);
+  const size_t main = strongest_channel(summary);
   constexpr size_t kForces = kTrackChannels / 2;
   std::array<double, 2> gains{1, 1};
   for (const size_t kind : {size_t{0}, size_t{1}}) {
@@ -214,7 +214,7 @@ int convert_track(const ConvertOptions& options) {
     return kDone;
   }
   if (ends_with(to, ".funscript")) {
-    if (options.axis.empty()) save.axis = liveliest_channel(summary);
+    if (options.axis.empty()) save.axis = strongest_channel(summary);
     std::cout << about_axis(summary, save.axis, !options.axis.empty());
   }
   if (has_own_range(to)) {

@@ -124,14 +124,14 @@ class CsvReader {
     for (const char separator : separators_) {
       separator_ = separator;
       const Fields fields = split(record_, separator);
-      if (take_names(fields)) return true;
+      if (parse_names(fields)) return true;
       if (!std::any_of(fields.begin(), fields.end(), value_of)) continue;
       for (const std::string& comment : comments_) {
         const Fields names = split(comment, separator);
-        if (names.size() == fields.size() && take_names(names)) return false;
+        if (names.size() == fields.size() && parse_names(names)) return false;
       }
       if (fields.size() == kColumns && std::all_of(fields.begin(), fields.end(), value_of)) {
-        return !take_names(Fields(std::begin(kColumnNames), std::end(kColumnNames)));
+        return !parse_names(Fields(std::begin(kColumnNames), std::end(kColumnNames)));
       }
     }
     fail(
@@ -140,7 +140,7 @@ class CsvReader {
   }
 
   /// Returns false when these are not the names of columns.
-  bool take_names(const Fields& fields) {
+  bool parse_names(const Fields& fields) {
     std::array<std::string, kColumns> units;
     at_ = {};
     for (size_t i = 0; i < fields.size(); ++i) {

@@ -113,7 +113,7 @@ class ExportedFilm {
                  unplayed_ + "; spidartrack export " + film_ +
                  " FOLDER/ converts it for them, as --embed does";
     }
-    tell(page.target(), html, unplayed);
+    print_result(page.target(), html, unplayed);
   }
 
   /// Writes a page that contains the film.
@@ -134,7 +134,7 @@ class ExportedFilm {
     read_file(path, kAtOnce, [&page](const std::string& bytes) { page.write(base64(bytes)); });
     page.write("</script>\n" + html.substr(at));
     publish(page);
-    tell(page.target(), html, "; with the film in it" + missing);
+    print_result(page.target(), html, "; with the film in it" + missing);
   }
 
   /// Writes a self-contained folder with the page and the film.
@@ -152,7 +152,7 @@ class ExportedFilm {
     page.write(html);
     publish(film);
     publish(page);
-    tell(page.target(), html, missing);
+    print_result(page.target(), html, missing);
   }
 
  private:
@@ -176,7 +176,7 @@ class ExportedFilm {
     try {
       const FilmResult result = record_in_process(
           {film_, track.target(), with_rules(properties, film_), false}, track, next_part());
-      said_ = "; " + result.felt + (result.remark.empty() ? "" : "; " + result.remark);
+      remark_ = "; " + result.felt + (result.remark.empty() ? "" : "; " + result.remark);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error(film_ + ": " + error.what());
     }
@@ -193,10 +193,10 @@ class ExportedFilm {
 
   /// Places the arrow on the felt object, if the track tells how it was measured.
   void place_arrow() {
-    const auto tell = next_part();
+    const auto report = next_part();
     if (!condition_.notes.settings) return;
     try {
-      std::vector<FeltBox> boxes = find_felt_boxes(film_, *condition_.notes.settings, tell);
+      std::vector<FeltBox> boxes = find_felt_boxes(film_, *condition_.notes.settings, report);
       for (FeltBox& box : boxes) box.stream_ns -= condition_.later_ns;
       page_.set_boxes(boxes);
     } catch (const std::runtime_error& error) {
@@ -231,13 +231,13 @@ class ExportedFilm {
     return 1e-9 * static_cast<double>(read_film(copy).begin_ns - read_film(film_).begin_ns);
   }
 
-  void tell(const std::string& to, const std::string& html, const std::string& more) {
+  void print_result(const std::string& to, const std::string& html, const std::string& more) {
     report_ = nullptr;  // this erases its line
     const char* const lost =
         has_subtitles_ ? "; without its subtitles, which browsers do not show" : "";
     std::printf("%s: %s; %zu KB, exact to %.2f N%s%s%s%s\n", film_.c_str(), to.c_str(),
                 html.size() / 1000, tolerance_N_, more.c_str(), lost, in_the_middle_.c_str(),
-                said_.c_str());
+                remark_.c_str());
   }
 
   const std::string film_;
@@ -245,7 +245,7 @@ class ExportedFilm {
   std::unique_ptr<RecordReport> report_ =
       std::make_unique<RecordReport>(std::vector<std::string>{film_});
   int parts_of_work_ = 1, parts_done_ = 0;
-  std::string said_;  ///< about the recording
+  std::string remark_;  ///< about the recording
   FilmPage page_;
   double tolerance_N_ = 0;  ///< of the shown force
   TrackCondition condition_;

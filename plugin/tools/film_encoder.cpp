@@ -160,7 +160,7 @@ class KeptStreams {
     gst_caps_append(caps, gst_caps_from_string(kCopied));
     g_object_set(decoder.get(), "caps", caps, nullptr);
     gst_caps_unref(caps);
-    g_signal_connect(decoder.get(), "unknown-type", G_CALLBACK(hear_unknown), this);
+    g_signal_connect(decoder.get(), "unknown-type", G_CALLBACK(on_unknown_type), this);
     g_signal_connect(decoder.get(), "no-more-pads", G_CALLBACK(choose), this);
   }
 
@@ -172,7 +172,7 @@ class KeptStreams {
     if (missing_.find(what) == std::string::npos) missing_ += (missing_.empty() ? "" : "; ") + what;
   }
 
-  static void hear_unknown(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
+  static void on_unknown_type(GstElement*, GstPad*, GstCaps* caps, gpointer user) {
     auto& self = *static_cast<KeptStreams*>(user);
     const StreamContent content = content_of(caps);
     if (content != StreamContent::kSound && content != StreamContent::kSubtitles) return;
@@ -189,7 +189,7 @@ class KeptStreams {
     for (GList* i = decoder->srcpads; i; i = i->next) {
       auto* const pad = static_cast<GstPad*>(i->data);
       const StreamContent content = content_of(pad);
-      if (content == StreamContent::kSound) self.keep_sound(pad);
+      if (content == StreamContent::kSound) self.copy_sound(pad);
       if (content != StreamContent::kSubtitles || is_drawn) continue;
       if (overlay) {
         if (is_marked(Ref<GstCaps>(caps_of(pad)).get())) {
@@ -199,13 +199,13 @@ class KeptStreams {
         is_drawn =
             gst_element_link_pads(decoder, GST_OBJECT_NAME(pad), overlay.get(), "subtitle_sink");
       } else {
-        self.keep_subtitles(pad);
+        self.copy_subtitles(pad);
       }
     }
     if (overlay && !is_drawn) self.miss("it has no subtitles to draw");
   }
 
-  void keep_sound(GstPad* sound) {
+  void copy_sound(GstPad* sound) {
     const Ref<GstCaps> caps(caps_of(sound));
     const char* const encoder =
         format_of(caps.get()) == "audio/x-raw" ? first_installed(kSound) : "identity";
@@ -213,7 +213,7 @@ class KeptStreams {
     lead_to_muxer(sound, encoder, "audio_%u");
   }
 
-  void keep_subtitles(GstPad* subtitles) {
+  void copy_subtitles(GstPad* subtitles) {
     const Ref<GstCaps> caps(caps_of(subtitles));
     if (format_of(caps.get()) != "text/x-raw") {
       return miss("subtitles of it are left out, because they are pictures (" +
@@ -364,8 +364,8 @@ std::string why_no_browser(const std::string& film) {
 
 EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
                         const RecordProperties& properties, const PartFile& part,
-                        const std::function<void(int percent)>& tell) {
-  FilmProgress progress(tell);
+                        const std::function<void(int percent)>& report) {
+  FilmProgress progress(report);
   FilmWatch watch;
   KeptStreams others;
   MutedStderr muted;
@@ -374,7 +374,7 @@ EncodedFilm encode_film(const std::string& film, const std::string& elements, co
       "filesrc name=source ! decodebin name=decode videoconvert name=convert ! "
       "videoflip name=flip video-direction=auto ! " +
           elements + to_file(part),
-      film, nullptr, kSlowShare);
+      film, nullptr, kShareTimeout);
   GstElement* const pictures = file.find(last);
   set_properties(pictures, properties);
   watch.begin(file.pipeline(), film);

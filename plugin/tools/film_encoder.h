@@ -19,11 +19,11 @@ struct EncodedFilm {
 /// Plays `film` through `elements`, each followed by "!", from upright raw pictures, and writes
 /// the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with the sound and the
 /// subtitles of the film. The element named `last` (one of these, or "flip", which is before them)
-/// gets `properties`, and its frames give the progress for `tell`, see FilmProgress. Throws
+/// gets `properties`, and its frames give the progress for `report`, see FilmProgress. Throws
 /// std::runtime_error; it names the package to install when GStreamer has no encoder of H.264.
 EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
                         const RecordProperties& properties, const PartFile& part,
-                        const std::function<void(int percent)>& tell);
+                        const std::function<void(int percent)>& report);
 
 /// Returns why some browser does not play the film, as the end of a sentence: "its picture is
 /// video/x-h265". Empty when all do: H.264 in MP4, VP8 or VP9 in WebM, with AAC, MP3, Opus or

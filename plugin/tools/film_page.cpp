@@ -50,12 +50,12 @@ GstPadProbeReturn measured(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
 }  // namespace
 
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
-                                     const std::function<void(int percent)>& tell) {
+                                     const std::function<void(int percent)>& report) {
   const RecordProperties properties = properties_of(settings);
   std::vector<FeltBox> boxes;  // must outlive the pipeline
-  FilmProgress progress(tell);
+  FilmProgress progress(report);
   FilmWatch watch;
-  const FilePipeline file(kMeasuredFilm, film, nullptr, kSlowShare);
+  const FilePipeline file(kMeasuredFilm, film, nullptr, kShareTimeout);
   GstElement* const motion = file.find("motion");
   set_properties(motion, properties);
   watch.begin(file.pipeline(), film);

@@ -24,9 +24,9 @@ struct FeltBox {
 
 /// Finds the box in each frame as spidarmotion measures it with `settings`, see RecordProperties.
 /// Throws std::runtime_error, without the name of the film, when the film cannot be played to its
-/// end, or the settings are not those of a track. `tell` is that of FilmProgress.
+/// end, or the settings are not those of a track. `report` is that of FilmProgress.
 std::vector<FeltBox> find_felt_boxes(const std::string& film, const std::string& settings,
-                                     const std::function<void(int percent)>& tell);
+                                     const std::function<void(int percent)>& report);
 
 std::string base64(const std::string& bytes);
 

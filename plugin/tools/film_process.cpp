@@ -80,16 +80,16 @@ void tag(GstElement* extract, const tracks::Notes& notes) {
 }
 
 /// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
-/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `tell`
+/// follows from the end of the name that it will have (`encoder_of()`), and reads it back. `report`
 /// is called in another thread with the percentage of the work, whenever it rises. Throws
 /// std::runtime_error.
 FilmResult record_film(const std::string& film, const PartFile& track,
                        const RecordProperties& properties,
-                       const std::function<void(int percent)>& tell) {
+                       const std::function<void(int percent)>& report) {
   struct stat at_first {
   }, at_last{};
   stat(film.c_str(), &at_first);
-  FilmProgress progress(tell);
+  FilmProgress progress(report);
   FilmFingerprint fingerprint;
   std::string unread;
   try {
@@ -105,7 +105,7 @@ FilmResult record_film(const std::string& film, const PartFile& track,
       "spidarextract name=extract extract.wrench ! " +
           encoder_of(track.target()) +
           " ! fdsink sync=false fd=" + std::to_string(track.descriptor()),
-      film, nullptr, unread.empty() ? kSlowShare : FilePipeline::kLongestSilence);
+      film, nullptr, unread.empty() ? kShareTimeout : FilePipeline::kLongestSilence);
   set_properties(file.find("motion"), properties);
   watch.begin(file.pipeline(), film);
   progress.watch(file.find("motion"));
@@ -232,7 +232,7 @@ void await_end(pid_t process) {
                 "): it is damaged, or a plug-in of GStreamer that reads it has a fault");
 }
 
-FilmResult run(const FilmJob& job, int part, const std::function<void(int percent)>& tell) {
+FilmResult run(const FilmJob& job, int part, const std::function<void(int percent)>& report) {
   Sockets sockets;
   const auto [own, other] = sockets.ends;
   std::vector<std::pair<int, int>> files{{other, other}};
@@ -250,7 +250,7 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
   Json last = {{"error", "the process that read it ended without a result"}};
   while (const std::optional<Json> answer = next_message(own)) {
     if (answer->contains("percent")) {
-      tell((*answer)["percent"]);
+      report((*answer)["percent"]);
     } else {
       last = *answer;
     }
@@ -262,7 +262,7 @@ FilmResult run(const FilmJob& job, int part, const std::function<void(int percen
 
 // --- the process of a film
 
-void say(int socket, const Json& answer) {
+void send_answer(int socket, const Json& answer) {
   if (!send_message(socket, answer)) _exit(kFailed);  // the parent is gone
 }
 
@@ -310,8 +310,8 @@ int number_of_descriptor(const char* text) {
 }  // namespace
 
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
-                             const std::function<void(int percent)>& tell) {
-  return run(job, part.descriptor(), tell);
+                             const std::function<void(int percent)>& report) {
+  return run(job, part.descriptor(), report);
 }
 
 FilmResult check_in_process(const FilmJob& job) {
@@ -343,18 +343,18 @@ int run_film_process(int argc, char** argv) {
       const PartFile part(job.track, descriptor);
       recorded = part.path();
       result = record_film(job.film, part, job.properties, [socket](int percent) {
-        say(socket, {{"percent", percent}});
+        send_answer(socket, {{"percent", percent}});
       });
     }
     const bool is_summarised = job.is_summarised && result.other.empty();
-    say(socket, {{"felt", result.felt},
-                 {"remark", result.remark},
-                 {"other", result.other},
-                 {"is_by_others", result.is_by_others},
-                 {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
+    send_answer(socket, {{"felt", result.felt},
+                         {"remark", result.remark},
+                         {"other", result.other},
+                         {"is_by_others", result.is_by_others},
+                         {"summary", is_summarised ? summary_of(recorded) : Json::object()}});
     return kDone;
   } catch (const std::exception& error) {
-    say(socket, {{"error", error.what()}});
+    send_answer(socket, {{"error", error.what()}});
     return kFailed;
   }
 }

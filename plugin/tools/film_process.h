@@ -29,10 +29,10 @@ struct FilmResult {
   Json summary;  ///< of the track, an object; empty without is_summarised
 };
 
-/// Records the film of `job` into `part`. `tell` is called with the percentage of the work,
+/// Records the film of `job` into `part`. `report` is called with the percentage of the work,
 /// whenever it rises. Throws std::runtime_error with the reason, or with how the process ended.
 FilmResult record_in_process(const FilmJob& job, const PartFile& part,
-                             const std::function<void(int percent)>& tell);
+                             const std::function<void(int percent)>& report);
 
 /// Compares the existing track with the one that would be recorded. A track without notes was made
 /// by hand or by an older version, and counts as the same. Throws std::runtime_error when the film

@@ -160,14 +160,14 @@ void set_properties(GstElement* motion, const RecordProperties& properties) {
   }
 }
 
-FilmProgress::FilmProgress(std::function<void(int percent)> tell) : tell_(std::move(tell)) {}
+FilmProgress::FilmProgress(std::function<void(int percent)> report) : report_(std::move(report)) {}
 
 void FilmProgress::watch(GstElement* motion) {
   const Ref<GstPad> frames(gst_element_get_static_pad(motion, "src"));
-  gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, passes, this, nullptr);
+  gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_BUFFER, on_frame, this, nullptr);
 }
 
-GstPadProbeReturn FilmProgress::passes(GstPad* frames, GstPadProbeInfo* info, gpointer user) {
+GstPadProbeReturn FilmProgress::on_frame(GstPad* frames, GstPadProbeInfo* info, gpointer user) {
   auto& self = *static_cast<FilmProgress*>(user);
   if (self.film_ns_ == 0) gst_pad_query_duration(frames, GST_FORMAT_TIME, &self.film_ns_);
   if (self.film_ns_ <= 0) {
@@ -177,9 +177,9 @@ GstPadProbeReturn FilmProgress::passes(GstPad* frames, GstPadProbeInfo* info, gp
   const GstClockTime at = stream_time_of(frames, GST_PAD_PROBE_INFO_BUFFER(info));
   if (!GST_CLOCK_TIME_IS_VALID(at)) return GST_PAD_PROBE_OK;
   const int percent = static_cast<int>(100 * at / static_cast<GstClockTime>(self.film_ns_));
-  if (percent > self.told_ && percent < 100) {
-    self.told_ = percent;
-    self.tell_(self.told_);
+  if (percent > self.reported_ && percent < 100) {
+    self.reported_ = percent;
+    self.report_(self.reported_);
   }
   return GST_PAD_PROBE_OK;
 }

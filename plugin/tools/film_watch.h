@@ -21,7 +21,7 @@ class FilePipeline;
 namespace spidar::tools {
 
 /// The timeout without data that allows for a slow network share.
-constexpr GstClockTime kSlowShare = 60 * GST_SECOND;
+constexpr GstClockTime kShareTimeout = 60 * GST_SECOND;
 
 constexpr const char* kEndMissing = "its end is missing: it is damaged or cut off";
 
@@ -31,18 +31,18 @@ void set_properties(GstElement* motion, const RecordProperties& properties);
 /// Reports the progress of a film in percent. Must outlive the pipeline.
 class FilmProgress {
  public:
-  /// `tell` is called in a streaming thread whenever the percentage has risen.
-  explicit FilmProgress(std::function<void(int percent)> tell);
+  /// `report` is called in a streaming thread whenever the percentage has risen.
+  explicit FilmProgress(std::function<void(int percent)> report);
 
   /// Follows the timestamps of the frames that leave `motion`.
   void watch(GstElement* motion);
 
  private:
-  static GstPadProbeReturn passes(GstPad* frames, GstPadProbeInfo* info, gpointer self);
+  static GstPadProbeReturn on_frame(GstPad* frames, GstPadProbeInfo* info, gpointer self);
 
-  const std::function<void(int percent)> tell_;
+  const std::function<void(int percent)> report_;
   gint64 film_ns_ = 0;
-  int told_ = 0;
+  int reported_ = 0;
 };
 
 /// Monitors a pipeline that reads a film as fast as possible: selects the video stream and detects

@@ -48,11 +48,11 @@ class BinWriter {
       low_[axis] = count_ % step_ == 0 ? now : std::min(low_[axis], now);
       high_[axis] = count_ % step_ == 0 ? now : std::max(high_[axis], now);
     }
-    if (++count_ % step_ == 0 || count_ == samples_) put();
+    if (++count_ % step_ == 0 || count_ == samples_) write_bin();
   }
 
  private:
-  void put() {
+  void write_bin() {
     const size_t begin = (count_ - 1) / step_ * step_;
     for (const auto& row : {low_, high_}) {
       script_ << static_cast<double>(begin) / kTrackRate_Hz;

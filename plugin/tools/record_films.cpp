@@ -131,7 +131,7 @@ class FilmBatch {
     work();
     for (std::thread& worker : workers) worker.join();
     const bool no_film_failed = report_.finish();
-    tell_where();
+    print_track_path();
     return no_film_failed;
   }
 
@@ -152,7 +152,7 @@ class FilmBatch {
   }
 
   /// Prints how players find the tracks in the folder, if they do not search there already.
-  void tell_where() {
+  void print_track_path() {
     if (options_.folder.empty() || options_.films.empty()) return;
     std::error_code none;
     const ListedFilm& film = options_.films.front();
@@ -219,8 +219,8 @@ class FilmBatch {
     if (is_done(index, track)) return true;  // finished in the meantime
     report_.progress(index, 0);
     const std::chrono::steady_clock::time_point begin = std::chrono::steady_clock::now();
-    const auto tell = [&](int percent) { report_.progress(index, percent); };
-    const FilmResult result = record_in_process(job_of(index), *part, tell);
+    const auto report = [&](int percent) { report_.progress(index, percent); };
+    const FilmResult result = record_in_process(job_of(index), *part, report);
     const std::string more = part->publish();
     const std::string remark = with_warning(
         result.remark + (result.remark.empty() || more.empty() ? "" : "; ") + more, film, track);

@@ -13,7 +13,7 @@
 namespace spidar::tools {
 namespace {
 
-constexpr std::chrono::seconds kTellEvery{10};
+constexpr std::chrono::seconds kReportInterval{10};
 /// An estimate from less work is too uncertain.
 constexpr double kMinWork_s = 2;
 
@@ -56,8 +56,8 @@ void RecordReport::progress(size_t film, int percent) {
   erase();
   draw();
   const auto now = std::chrono::steady_clock::now();
-  if (is_terminal_ || now - told_ < kTellEvery) return;
-  told_ = now;
+  if (is_terminal_ || now - reported_ < kReportInterval) return;
+  reported_ = now;
   std::cout << in_work() << std::endl;
 }
 

@@ -48,7 +48,7 @@ class RecordReport {
   const bool is_terminal_;
   const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
   std::mutex mutex_;
-  std::chrono::steady_clock::time_point told_ = begin_;
+  std::chrono::steady_clock::time_point reported_ = begin_;
   std::vector<double> sizes_;      ///< in bytes, at least 1
   double work_ = 0, skipped_ = 0;  ///< bytes of recorded films; of other films that are done
   std::map<size_t, int> in_work_;  ///< film and percent

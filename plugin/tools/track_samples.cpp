@@ -72,7 +72,7 @@ std::optional<TrackSample> exact_sample(const TrackBlock& block, int64_t time_ns
 }
 
 /// Passes 1000 samples a second to `take`, and returns the end of the track.
-int64_t give_samples(tracks::OpenTrack& track, const SampleSource::Take& take) {
+int64_t read_samples(tracks::OpenTrack& track, const SampleSource::Take& take) {
   TrackReader reader;
   TrackBlock block;
   int64_t end_ns = 0;
@@ -100,7 +100,7 @@ void read_sound(const std::string& path, const Film& film, const SampleSource::T
   const std::unique_ptr<tracks::OpenTrack> track = tracks::open_track(found.track);
   int64_t end_ns = 0;
   try {
-    end_ns = give_samples(*track, take);
+    end_ns = read_samples(*track, take);
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(found.track + ": " + error.what());
   }

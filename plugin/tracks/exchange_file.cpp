@@ -62,7 +62,7 @@ class ExchangeTrack : public OpenTrack {
   void read_pass() override {
     TrackBlock block;
     while (next(block)) {
-      if (!blocks_->put(block, {})) return;
+      if (!blocks_->push(block, {})) return;
     }
     blocks_->end_pass({});
   }

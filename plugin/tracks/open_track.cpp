@@ -69,14 +69,14 @@ class TrackOfFile : public OpenTrack {
         parser_(file_.find("parse")) {
     GstElement* const out = file_.find("out");
     pad_.reset(gst_element_get_static_pad(out, "sink"));
-    g_signal_connect(out, "handoff", G_CALLBACK(take_buffer), this);
+    g_signal_connect(out, "handoff", G_CALLBACK(on_buffer), this);
     gst_pad_add_probe(pad_.get(),
                       static_cast<GstPadProbeType>(GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM |
                                                    GST_PAD_PROBE_TYPE_EVENT_FLUSH),
                       follow, this, nullptr);
-    file_.link_streams([this](GstPad* stream) { return take_stream(stream); });
+    file_.link_streams([this](GstPad* stream) { return select_stream(stream); });
     g_signal_connect(parser_, "pad-added", G_CALLBACK(add_stream), this);
-    file_.hear_errors([this](const std::string& error) { blocks_->end(error); });
+    file_.on_error([this](const std::string& error) { blocks_->end(error); });
   }
   /// Reads the first part. Throws as open_track().
   void begin() {
@@ -126,7 +126,7 @@ class TrackOfFile : public OpenTrack {
   bool next(TrackBlock& block) override {
     FilePipeline::Progress progress;
     for (;;) {
-      const ReadAhead::Found found = blocks_->take(
+      const ReadAhead::Found found = blocks_->pop(
           block, std::chrono::steady_clock::now() + std::chrono::nanoseconds(FilePipeline::kLook));
       if (found == ReadAhead::Found::kBlock) return true;
       const std::string error = blocks_->error();
@@ -161,7 +161,7 @@ class TrackOfFile : public OpenTrack {
   }
 
   /// Decodes the first wanted stream, and ignores all others.
-  GstElement* take_stream(GstPad* pad) {
+  GstElement* select_stream(GstPad* pad) {
     const StreamContent content = content_of(pad);
     if (content == StreamContent::kSound) has_sound_ = true;
     if (!is_wanted(content)) return nullptr;
@@ -225,7 +225,7 @@ class TrackOfFile : public OpenTrack {
   }
 
   /// Runs in the streaming thread of the pipeline that reads the file.
-  static void take_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
+  static void on_buffer(GstElement*, GstBuffer* buffer, GstPad* pad, gpointer user) {
     auto& self = *static_cast<TrackOfFile*>(user);
     if (!self.blocks_->error().empty()) return;
     const Ref<GstEvent> segment(gst_pad_get_sticky_event(pad, GST_EVENT_SEGMENT, 0));
@@ -241,10 +241,10 @@ class TrackOfFile : public OpenTrack {
       if (self.only_notes_) return stop_waiting(GST_PAD_PARENT(pad));
     }
     if (self.only_notes_) return;
-    self.take(buffer, pad);
+    self.add_buffer(buffer, pad);
   }
 
-  void take(GstBuffer* buffer, GstPad* pad) {
+  void add_buffer(GstBuffer* buffer, GstPad* pad) {
     GstSegment segment;
     gst_segment_init(&segment, GST_FORMAT_TIME);
     input_.read(buffer, segment, 1, [this, pad](const TrackBlock& block) {
@@ -261,7 +261,7 @@ class TrackOfFile : public OpenTrack {
         stop_waiting(GST_PAD_PARENT(pad));
       }
       end_ns_ = std::max(end_ns_, end_of(block));
-      return blocks_->put(block, input_.faults()) ? GST_FLOW_OK : GST_FLOW_EOS;
+      return blocks_->push(block, input_.faults()) ? GST_FLOW_OK : GST_FLOW_EOS;
     });
   }
 

@@ -9,7 +9,7 @@ bool ReadAhead::is_full() const {
                               blocks_.back().begin_ns - blocks_.front().begin_ns > kAhead_ns);
 }
 
-bool ReadAhead::put(const TrackBlock& block, const tracks::Faults& faults) {
+bool ReadAhead::push(const TrackBlock& block, const tracks::Faults& faults) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait(lock, [this] { return !is_wanted() || !is_full(); });
   if (!is_wanted()) return false;
@@ -65,7 +65,7 @@ void ReadAhead::seek(int64_t time_ns) {
   changed_.notify_all();
 }
 
-ReadAhead::Found ReadAhead::take(TrackBlock& block, std::chrono::steady_clock::time_point limit) {
+ReadAhead::Found ReadAhead::pop(TrackBlock& block, std::chrono::steady_clock::time_point limit) {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_until(lock, limit,
                       [this] { return !blocks_.empty() || ended_ || interrupted_ || stopped_; });

@@ -34,7 +34,7 @@ class ReadAhead {
 
   /// Waits until the queue has space and adds the block. Blocks before the sought position, and
   /// those whose times do not rise, are left out. Returns false when this pass has ended.
-  bool put(const TrackBlock& block, const tracks::Faults& faults);
+  bool push(const TrackBlock& block, const tracks::Faults& faults);
   /// Call this at the end of the file, with an `error` if the file should not end there. Ignored
   /// when nothing more of this pass is wanted.
   void end_pass(const std::string& error);
@@ -54,12 +54,12 @@ class ReadAhead {
   };
 
   /// Adds `later_ns` to all times: the film shows everything that much later than the file says.
-  /// Call this before the first take().
+  /// Call this before the first pop().
   void set_later(int64_t later_ns);
   /// Seeks: the next blocks are those that end after `time_ns`.
   void seek(int64_t time_ns);
   /// Moves the oldest block into `block`; waits for it until `limit`, or until interrupted.
-  Found take(TrackBlock& block, std::chrono::steady_clock::time_point limit);
+  Found pop(TrackBlock& block, std::chrono::steady_clock::time_point limit);
 
   // --- any thread
 
@@ -67,7 +67,7 @@ class ReadAhead {
   std::string error() const;
   /// Whether there was an error, and every block before it has been taken.
   bool has_failed() const;
-  /// Whether take() has waited in vain.
+  /// Whether pop() has waited in vain.
   bool was_late() const;
   tracks::Faults faults() const;
   void set_interrupted(bool interrupted) { set(interrupted_, interrupted); }

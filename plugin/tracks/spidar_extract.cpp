@@ -55,9 +55,9 @@ struct _GstSpidarExtract {
   // Streaming thread.
   Stream* track;
   GstFlowCombiner* flows;
-  gint without_meta;  // atomic: successive frames without a meta
-  gint warned;        // atomic: a warning of that was posted
-  gint told;          // atomic: sinks that wait for each other were reported
+  gint without_meta;     // atomic: successive frames without a meta
+  gint warned;           // atomic: a warning of that was posted
+  gint warned_of_queue;  // atomic: sinks that wait for each other were reported
 };
 
 static GstStaticPadTemplate track_sink_template = GST_STATIC_PAD_TEMPLATE(
@@ -134,7 +134,7 @@ static void warn_of_data(GstSpidarExtract* self) {
 static constexpr GstClockTime kQueue = GST_SECOND;
 
 /// The clock calls this while the video is being pushed.
-static gboolean tell_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user) {
+static gboolean warn_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(user);
   const spidar::Ref<GstObject> pipeline = spidar::root_of(self);
   const bool waits = GST_STATE_PENDING(pipeline.get()) != GST_STATE_VOID_PENDING;
@@ -143,7 +143,7 @@ static gboolean tell_of_queue(GstClock*, GstClockTime, GstClockID, gpointer user
     warn_of_data(self);  // the queue is missing in the pipeline
     return TRUE;
   }
-  if (g_atomic_int_exchange(&self->told, TRUE)) return TRUE;
+  if (g_atomic_int_exchange(&self->warned_of_queue, TRUE)) return TRUE;
   GST_ELEMENT_WARNING(
       self, STREAM, FAILED,
       ("The sink of the video waits for that of the haptic track, which gets nothing as long as "
@@ -159,7 +159,7 @@ static GstFlowReturn push_video(GstSpidarExtract* self, GstBuffer* buffer) {
   const spidar::Ref<GstClock> clock(gst_system_clock_obtain());
   GstClockID alarm =
       gst_clock_new_single_shot_id(clock.get(), gst_clock_get_time(clock.get()) + kQueue);
-  gst_clock_id_wait_async(alarm, tell_of_queue, gst_object_ref(self), gst_object_unref);
+  gst_clock_id_wait_async(alarm, warn_of_queue, gst_object_ref(self), gst_object_unref);
   const GstFlowReturn flow = gst_pad_push(self->src, buffer);
   gst_clock_id_unschedule(alarm);
   gst_clock_id_unref(alarm);
@@ -269,7 +269,7 @@ static GstStateChangeReturn gst_spidar_extract_change_state(GstElement* element,
                                                             GstStateChange transition) {
   GstSpidarExtract* self = GST_SPIDAR_EXTRACT(element);
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED) {
-    for (gint* value : {&self->without_meta, &self->warned, &self->told}) {
+    for (gint* value : {&self->without_meta, &self->warned, &self->warned_of_queue}) {
       g_atomic_int_set(value, 0);
     }
   }

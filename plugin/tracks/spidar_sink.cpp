@@ -326,7 +326,7 @@ static gboolean gst_spidar_sink_event(GstBaseSink* sink, GstEvent* event) {
 }
 
 /// Sets `sync` again: without it, the base class would not wait, and the track would end at once.
-static void keep_sync(GstSpidarSink* self) {
+static void restore_sync(GstSpidarSink* self) {
   if (gst_base_sink_get_sync(GST_BASE_SINK(self))) return;
   gst_base_sink_set_sync(GST_BASE_SINK(self), TRUE);
   g_atomic_int_set(&self->state->wants_no_sync, TRUE);
@@ -440,7 +440,7 @@ static void gst_spidar_sink_finalize(GObject* object) {
 
 static void gst_spidar_sink_init(GstSpidarSink* self) {
   self->state = new SinkState(GST_ELEMENT(self));
-  g_signal_connect(self, "notify::sync", G_CALLBACK(keep_sync), nullptr);
+  g_signal_connect(self, "notify::sync", G_CALLBACK(restore_sync), nullptr);
   g_signal_connect(self, "notify::ts-offset", G_CALLBACK(follow_ts_offset), nullptr);
 }
 

@@ -20,7 +20,7 @@ bool has_no_mask(const GstCaps* caps) {
 }
 
 /// Returns the channel mask as text, unless it is none, or 5.1, to which containers convert none.
-std::string strange_mask(const GstCaps* caps) {
+std::string unsupported_mask(const GstCaps* caps) {
   guint64 mask = 0;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);
   if (!gst_structure_get(structure, "channel-mask", GST_TYPE_BITMASK, &mask, nullptr)) return {};
@@ -51,7 +51,7 @@ std::string Input::set_caps(const GstCaps* caps) {
            std::to_string(kHighestRate_Hz) + " samples a second, best 1000, not " +
            std::to_string(rate_Hz) + ".";
   }
-  const std::string mask = strange_mask(caps);
+  const std::string mask = unsupported_mask(caps);
   if (!mask.empty()) {
     return "The channel-mask " + mask +
            " may have moved the axes of a haptic track to other channels: it has to be 0 or 0x3f.";

@@ -161,7 +161,7 @@ GstFlowReturn Stream::add(const FrameWrench& frame) {
   interval_ns_ = lasts_ns >= 0 && lasts_ns <= kLongestSilence_ns ? lasts_ns : since_ns;
   last_frame_ns_ = time_ns;
   constexpr auto kAhead_ns = static_cast<int64_t>(kLookAhead_ns);
-  return put_until(std::max(sampler_.settled_ns(kAhead_ns), time_ns - kAhead_ns));
+  return push_until(std::max(sampler_.settled_ns(kAhead_ns), time_ns - kAhead_ns));
 }
 
 GstFlowReturn Stream::add_gap(GstClockTime pts) {
@@ -171,14 +171,14 @@ GstFlowReturn Stream::add_gap(GstClockTime pts) {
   const int64_t time_ns = running_ns(pts);
   if (time_ns < 0 || time_ns - last_frame_ns_ > kLongestSilence_ns) return GST_FLOW_OK;
   sampler_.add({time_ns, 0, Wrench(), false});
-  return put_until(sampler_.settled_ns(static_cast<int64_t>(kLookAhead_ns)));
+  return push_until(sampler_.settled_ns(static_cast<int64_t>(kLookAhead_ns)));
 }
 
 GstFlowReturn Stream::settle(int64_t until_ns) {
   if (!begun_) return GST_FLOW_OK;
   const int64_t end_ns = last_frame_ns_ + interval_ns_;
   sampler_.add({end_ns, 0, Wrench(), false});
-  const GstFlowReturn flow = put_until(std::max(end_ns, until_ns));
+  const GstFlowReturn flow = push_until(std::max(end_ns, until_ns));
   return flow == GST_FLOW_OK && filled_ > 0 ? push() : flow;
 }
 
@@ -203,16 +203,16 @@ void Stream::reset() {
   negotiated_ = false;
 }
 
-GstFlowReturn Stream::put_until(int64_t time_ns) {
+GstFlowReturn Stream::push_until(int64_t time_ns) {
   while (sampler_.next_ns() < time_ns) {
     const auto pts = static_cast<GstClockTime>(sampler_.next_ns());
-    const GstFlowReturn flow = put(to_track_sample(sampler_.next()), pts);
+    const GstFlowReturn flow = push(to_track_sample(sampler_.next()), pts);
     if (flow != GST_FLOW_OK) return flow;
   }
   return GST_FLOW_OK;
 }
 
-GstFlowReturn Stream::put(const TrackSample& sample, GstClockTime pts) {
+GstFlowReturn Stream::push(const TrackSample& sample, GstClockTime pts) {
   if (!buffer_) {
     buffer_ = gst_buffer_new_allocate(nullptr, kBufferSamples * sizeof(TrackSample), nullptr);
     gst_buffer_map(buffer_, &map_, GST_MAP_WRITE);

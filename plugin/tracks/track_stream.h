@@ -81,8 +81,8 @@ class Stream {
   bool is_alone(int64_t time_ns);
   /// Pushes everything up to the end of the last frame, or to `until_ns`, which may be later.
   GstFlowReturn settle(int64_t until_ns);
-  GstFlowReturn put_until(int64_t time_ns);
-  GstFlowReturn put(const TrackSample& sample, GstClockTime pts);
+  GstFlowReturn push_until(int64_t time_ns);
+  GstFlowReturn push(const TrackSample& sample, GstClockTime pts);
   GstFlowReturn push();
 
   GstPad* const pad_;

@@ -36,9 +36,9 @@ constexpr const char* kNotOpen = "the debug window is not open";
 constexpr const char* kSilent = "the debug window does not answer";
 /// How long close() waits for the thread, which ends in two thirds of that time, unless its call
 /// into the player waits for a lock that the caller of close() holds.
-constexpr std::chrono::milliseconds kLongestClose = 3 * Window::kPatience;
+constexpr std::chrono::milliseconds kLongestClose = 3 * Window::kCloseTimeout;
 /// The most messages that are sent at once; more wait only for a window that does not read.
-constexpr size_t kMaxToSay = 1000;
+constexpr size_t kMaxToSend = 1000;
 
 /// $SPIDAR_WINDOW, or the program that was built or installed with this plugin.
 std::string program() {
@@ -132,10 +132,10 @@ class Window::Session {
   void close();
   /// Returns false when the thread does not end in kLongestClose.
   bool await_end();
-  bool wants_frame() const { return is_asking_ && !is_full_; }
-  bool give(const GstVideoFrame& frame, DrawnFrame report);
+  bool wants_frame() const { return is_ready_ && !is_full_; }
+  bool queue_frame(const GstVideoFrame& frame, DrawnFrame report);
   std::string take_picture(const std::string& path, std::chrono::milliseconds timeout);
-  void say(ToWindow message);
+  void send(ToWindow message);
 
  private:
   struct Waiting {
@@ -157,12 +157,12 @@ class Window::Session {
 
   const std::shared_ptr<Source> source_;
   const int wake_ = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);  ///< −1: the system refuses it
-  std::atomic<bool> is_asking_{false};                       ///< whether the window is there
+  std::atomic<bool> is_ready_{false};                        ///< whether the window is there
   std::atomic<bool> is_full_{false};                         ///< whether there is no free slot
   // The thread uses these.
   bool has_failed_ = false;        ///< the window has reported why it cannot be opened
-  bool is_asked_ = false;          ///< whether a request waits for its answer
-  bool is_understood_ = true;      ///< whether the window sends valid messages
+  bool is_requested_ = false;      ///< whether a request waits for its answer
+  bool is_compatible_ = true;      ///< whether the window sends valid messages
   uint32_t memory_at_window_ = 0;  ///< the last one that was sent
   // The streaming thread uses these.
   uint32_t memories_ = 0;
@@ -170,8 +170,8 @@ class Window::Session {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::shared_ptr<PictureSlots> slots_;
-  std::deque<Waiting> frames_;   ///< frames that the window has not requested yet
-  std::deque<ToWindow> to_say_;  ///< messages to send at once
+  std::deque<Waiting> frames_;    ///< frames that the window has not requested yet
+  std::deque<ToWindow> to_send_;  ///< messages to send at once
   bool is_closing_ = false;
   bool is_gone_ = false;
   bool has_ended_ = false;  ///< whether the thread has ended
@@ -190,7 +190,7 @@ std::shared_ptr<PictureSlots> Window::Session::slots_for(const GstVideoFrame& fr
   return slots_->is_there() ? slots_ : nullptr;
 }
 
-bool Window::Session::give(const GstVideoFrame& frame, DrawnFrame report) {
+bool Window::Session::queue_frame(const GstVideoFrame& frame, DrawnFrame report) {
   std::shared_ptr<PictureSlots> slots;
   std::optional<uint32_t> slot;
   {
@@ -198,7 +198,7 @@ bool Window::Session::give(const GstVideoFrame& frame, DrawnFrame report) {
     if (!lock.owns_lock()) return false;
     slots = slots_for(frame);
     if (!slots) return false;
-    slot = slots->take();
+    slot = slots->acquire();
     if (!slot) {
       is_full_ = true;
       return false;
@@ -209,7 +209,7 @@ bool Window::Session::give(const GstVideoFrame& frame, DrawnFrame report) {
   if (is_copied) {
     frames_.push_back({slots, {slots->description().id, *slot, std::move(report)}});
   } else {
-    slots->give_back(*slot);
+    slots->release(*slot);
   }
   return is_copied;
 }
@@ -219,7 +219,7 @@ bool Window::Session::give(const GstVideoFrame& frame, DrawnFrame report) {
 void Window::Session::close() {
   const std::lock_guard<std::mutex> lock(mutex_);
   is_closing_ = true;
-  to_say_.emplace_back(Close());
+  to_send_.emplace_back(Close());
   wake();
 }
 
@@ -228,10 +228,10 @@ bool Window::Session::await_end() {
   return changed_.wait_for(lock, kLongestClose, [&] { return has_ended_; });
 }
 
-void Window::Session::say(ToWindow message) {
+void Window::Session::send(ToWindow message) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (to_say_.size() >= kMaxToSay) return;
-  to_say_.push_back(std::move(message));
+  if (to_send_.size() >= kMaxToSend) return;
+  to_send_.push_back(std::move(message));
   wake();
 }
 
@@ -242,9 +242,9 @@ std::string Window::Session::take_picture(const std::string& path,
   const std::filesystem::path whole = std::filesystem::absolute(path, error);
   std::unique_lock<std::mutex> lock(mutex_);
   if (is_gone_) return kNotOpen;
-  if (to_say_.size() >= kMaxToSay) return kSilent;
+  if (to_send_.size() >= kMaxToSend) return kSilent;
   const uint64_t number = ++pictures_asked_;
-  to_say_.emplace_back(TakePicture{error ? path : whole.string()});
+  to_send_.emplace_back(TakePicture{error ? path : whole.string()});
   wake();
   const auto is_taken = [&] { return pictures_taken_ >= number || is_gone_; };
   if (!changed_.wait_for(lock, timeout, is_taken)) return kSilent;
@@ -271,9 +271,9 @@ void Window::Session::watch() {
     is_understood = serve(channel);
     has_left = channel.is_gone();
   }
-  is_asking_ = false;
+  is_ready_ = false;
   // A window that has not closed its end by now is killed at once.
-  std::string how = process.finish(has_left ? static_cast<int>(kPatience.count()) : 0);
+  std::string how = process.finish(has_left ? static_cast<int>(kCloseTimeout.count()) : 0);
   if (!is_understood) how = "is of another version than the plugin";
   finish(how);
 }
@@ -291,7 +291,7 @@ void Window::Session::fail(const std::string& error) {
 /// the queue to it does not grow.
 bool Window::Session::serve(Channel& channel) {
   std::optional<std::chrono::steady_clock::time_point> latest;
-  while (is_understood_ && !channel.is_gone()) {
+  while (is_compatible_ && !channel.is_gone()) {
     const short events = channel.has_unsent() ? POLLOUT : POLLIN;
     std::array<pollfd, 2> files{{{channel.socket(), events, 0}, {wake_, POLLIN, 0}}};
     const int wait_ms = latest ? 50 : -1;
@@ -301,12 +301,12 @@ bool Window::Session::serve(Channel& channel) {
     channel.flush();
     if (!channel.has_unsent()) pass_on(channel);
     if (!channel.has_unsent()) listen(channel);
-    if (is_asked_ && !channel.has_unsent()) answer(channel);
+    if (is_requested_ && !channel.has_unsent()) answer(channel);
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (is_closing_ && !latest) latest = std::chrono::steady_clock::now() + kPatience;
+    if (is_closing_ && !latest) latest = std::chrono::steady_clock::now() + kCloseTimeout;
     if (latest && std::chrono::steady_clock::now() > *latest) break;
   }
-  return is_understood_ && !channel.is_not_understood();
+  return is_compatible_ && !channel.is_incompatible();
 }
 
 /// Sends the messages that do not wait for a request.
@@ -314,7 +314,7 @@ void Window::Session::pass_on(Channel& channel) {
   std::deque<ToWindow> messages;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    messages.swap(to_say_);
+    messages.swap(to_send_);
   }
   for (const ToWindow& message : messages) {
     // A picture shows everything sent before.
@@ -327,15 +327,15 @@ void Window::Session::listen(Channel& channel) {
   channel.fill();
   while (const std::optional<std::vector<uint8_t>> packet = channel.next()) {
     std::optional<FromWindow> message = from_window(*packet);
-    is_understood_ = message.has_value();
-    if (!is_understood_) return;
+    is_compatible_ = message.has_value();
+    if (!is_compatible_) return;
     if (is_possible(*message)) handle(channel, std::move(*message));
   }
 }
 
 /// Sends the frames that have passed, and the state of the element.
 void Window::Session::answer(Channel& channel) {
-  is_asked_ = false;
+  is_requested_ = false;
   std::deque<Waiting> frames;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -355,13 +355,13 @@ void Window::Session::answer(Channel& channel) {
 void Window::Session::free_slot(const SlotFree& free) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!slots_ || slots_->description().id != free.memory) return;
-  slots_->give_back(free.slot);
+  slots_->release(free.slot);
   is_full_ = false;
 }
 
 void Window::Session::handle(Channel& channel, FromWindow&& message) {
-  if (std::holds_alternative<Ask>(message)) {
-    is_asking_ = is_asked_ = true;
+  if (std::holds_alternative<RequestFrames>(message)) {
+    is_ready_ = is_requested_ = true;
   } else if (const auto* free = std::get_if<SlotFree>(&message)) {
     free_slot(*free);
   } else if (const auto* change = std::get_if<ChangeSetting>(&message)) {
@@ -439,8 +439,8 @@ bool Window::wants_frame() const {
   return session_->wants_frame();
 }
 
-bool Window::give(const GstVideoFrame& frame, DrawnFrame report) {
-  return session_->give(frame, std::move(report));
+bool Window::queue_frame(const GstVideoFrame& frame, DrawnFrame report) {
+  return session_->queue_frame(frame, std::move(report));
 }
 
 std::string Window::take_picture(const std::string& path, std::chrono::milliseconds timeout) {
@@ -448,7 +448,7 @@ std::string Window::take_picture(const std::string& path, std::chrono::milliseco
 }
 
 void Window::input(const UserInput& input) {
-  session_->say(input);
+  session_->send(input);
 }
 
 }  // namespace spidar::window

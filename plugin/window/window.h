@@ -51,18 +51,18 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  static constexpr std::chrono::milliseconds kPatience{1000};
+  static constexpr std::chrono::milliseconds kCloseTimeout{1000};
 
   // --- streaming thread, which waits for nothing here
 
-  /// Whether give() has a free slot for a picture.
+  /// Whether queue_frame() has a free slot for a picture.
   bool wants_frame() const;
   /// Copies the frame. Returns false when the window is too slow for it or there is no memory.
-  bool give(const GstVideoFrame& frame, DrawnFrame report);
+  bool queue_frame(const GstVideoFrame& frame, DrawnFrame report);
 
   // --- any thread
 
-  /// Waits until the window is closed; after kPatience, it is killed. Does not wait when the
+  /// Waits until the window is closed; after kCloseTimeout, it is killed. Does not wait when the
   /// window's own thread calls this, nor for ever when that thread waits for the caller.
   void close();
   /// Writes what the window shows, with everything it was given before, to a PNG file. Returns an

@@ -105,7 +105,7 @@ class CardReservations : public testing::Test {
 };
 
 TEST_F(CardReservations, ACardThatNobodyHasIsTaken) {
-  const auto taken = CardReservation::take(3, refused_);
+  const auto taken = CardReservation::reserve(3, refused_);
   ASSERT_TRUE(taken) << refused_;
   EXPECT_EQ(refused_, "");
   EXPECT_EQ(other_->own(), 3u) << "it exists";
@@ -114,7 +114,7 @@ TEST_F(CardReservations, ACardThatNobodyHasIsTaken) {
 TEST_F(CardReservations, ASoundServerIsAskedAndGetsItBack) {
   ASSERT_EQ(other_->own(), 1u);
   {
-    const auto taken = CardReservation::take(3, refused_);
+    const auto taken = CardReservation::reserve(3, refused_);
     ASSERT_TRUE(taken) << refused_;
     EXPECT_EQ(other_->asked_with, G_MAXINT32);
     EXPECT_FALSE(other_->owns());
@@ -125,7 +125,7 @@ TEST_F(CardReservations, ASoundServerIsAskedAndGetsItBack) {
 TEST_F(CardReservations, OneThatKeepsItIsSaid) {
   ASSERT_EQ(other_->own(), 1u);
   other_->manner = Program::Manner::kKeeps;
-  EXPECT_FALSE(CardReservation::take(3, refused_));
+  EXPECT_FALSE(CardReservation::reserve(3, refused_));
   EXPECT_EQ(refused_, "its owner keeps it");
   EXPECT_TRUE(other_->owns());
 }
@@ -133,14 +133,14 @@ TEST_F(CardReservations, OneThatKeepsItIsSaid) {
 TEST_F(CardReservations, OneThatDoesNotAnswerIsNotWaitedForForEver) {
   ASSERT_EQ(other_->own(), 1u);
   other_->manner = Program::Manner::kSilent;
-  EXPECT_FALSE(CardReservation::take(3, refused_));
+  EXPECT_FALSE(CardReservation::reserve(3, refused_));
   EXPECT_NE(refused_, "");
   EXPECT_TRUE(other_->owns());
 }
 
 /// As a second player, or a sound server that starts later, asks.
 TEST_F(CardReservations, WhoAsksForItIsAnswered) {
-  const auto taken = CardReservation::take(3, refused_);
+  const auto taken = CardReservation::reserve(3, refused_);
   ASSERT_TRUE(taken);
   const Ref<GVariant> released =
       other_->call(kName, kPath, kInterface, "RequestRelease", g_variant_new("(i)", 5));
@@ -163,7 +163,7 @@ std::string why_refused(const std::string& address) {
       g_getenv("DBUS_SESSION_BUS_ADDRESS") ? g_getenv("DBUS_SESSION_BUS_ADDRESS") : "";
   g_setenv("DBUS_SESSION_BUS_ADDRESS", address.c_str(), TRUE);
   std::string refused;
-  EXPECT_FALSE(CardReservation::take(3, refused));
+  EXPECT_FALSE(CardReservation::reserve(3, refused));
   if (before.empty())
     g_unsetenv("DBUS_SESSION_BUS_ADDRESS");
   else

@@ -115,14 +115,14 @@ TEST_P(LongTrack, ThatIsCutOffWhileItIsPlayedSaysWhereItEnds) {
   TrackBlock block;
   int64_t end_ns = 0;
   const auto deadline = std::chrono::steady_clock::now() + kLongest;
-  while (blocks->take(block, deadline) == ReadAhead::Found::kBlock) end_ns = end_of(block);
+  while (blocks->pop(block, deadline) == ReadAhead::Found::kBlock) end_ns = end_of(block);
   EXPECT_LT(end_ns, kLength_ms * kMs_ns);
   const std::string error = blocks->error();
   EXPECT_NE(error.find("cut off while it was played: it ends at "), std::string::npos) << error;
   EXPECT_NE(error.find("was 60.000 s long"), std::string::npos) << error;
   // A jump to what is not there any more changes nothing of that.
   blocks->seek(50'000 * kMs_ns);
-  EXPECT_EQ(blocks->take(block, deadline), ReadAhead::Found::kEnd);
+  EXPECT_EQ(blocks->pop(block, deadline), ReadAhead::Found::kEnd);
   EXPECT_EQ(blocks->error(), error);
 }
 
@@ -152,7 +152,7 @@ TEST(TrackReplay, BackwardsNothingIsLeftOutThatComesLate) {
     block.begin_ns = begin_ms * kMs_ns;
     block.duration_ns = kBlock_ms * kMs_ns;
     block.count = kBlock_ms;
-    ASSERT_TRUE(blocks->put(block, {}));
+    ASSERT_TRUE(blocks->push(block, {}));
   };
   for (int ms = 0; ms <= 960; ms += kBlock_ms) put(ms);
   blocks->set_interrupted(true);  // nothing waits for the next
@@ -176,12 +176,12 @@ TEST(ReadAhead, WhatCannotBeReadFurtherIsSaidWhenAllHasBeenTaken) {
   TrackBlock block;
   block.duration_ns = 40 * kMs_ns;
   block.count = 40;
-  EXPECT_TRUE(blocks.put(block, {}));
+  EXPECT_TRUE(blocks.push(block, {}));
   blocks.end("it is damaged");
   EXPECT_FALSE(blocks.has_failed());
   const auto now = std::chrono::steady_clock::now();
-  EXPECT_EQ(blocks.take(block, now), ReadAhead::Found::kBlock);
-  EXPECT_EQ(blocks.take(block, now), ReadAhead::Found::kEnd);
+  EXPECT_EQ(blocks.pop(block, now), ReadAhead::Found::kBlock);
+  EXPECT_EQ(blocks.pop(block, now), ReadAhead::Found::kEnd);
   EXPECT_TRUE(blocks.has_failed());
   EXPECT_FALSE(blocks.was_late());
 }
@@ -190,11 +190,11 @@ TEST(ReadAhead, ABlockThatIsNotThereIsLateAndOneThatIsInterruptedIsNot) {
   ReadAhead blocks;
   TrackBlock block;
   blocks.set_interrupted(true);
-  EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now() + kLongest),
+  EXPECT_EQ(blocks.pop(block, std::chrono::steady_clock::now() + kLongest),
             ReadAhead::Found::kLate);
   EXPECT_FALSE(blocks.was_late());
   blocks.set_interrupted(false);
-  EXPECT_EQ(blocks.take(block, std::chrono::steady_clock::now()), ReadAhead::Found::kLate);
+  EXPECT_EQ(blocks.pop(block, std::chrono::steady_clock::now()), ReadAhead::Found::kLate);
   EXPECT_TRUE(blocks.was_late());
 }
 

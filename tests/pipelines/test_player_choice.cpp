@@ -12,10 +12,10 @@
 namespace spidar::test::player_choice_test {
 namespace {
 
+using follow::choice_text;
 using follow::choose_player;
 using follow::PlayerStatus;
 using follow::PlayerView;
-using follow::say_choice;
 using Film = PlayerView::Film;
 
 constexpr PlayerStatus kPlays = PlayerStatus::kPlaying, kPaused = PlayerStatus::kPaused,
@@ -80,15 +80,15 @@ TEST(PlayerChoice, OneWithoutAPositionIsTheLastOfThoseThatPlay) {
 TEST(PlayerChoice, AChangeIsSaidInASentence) {
   const PlayerView plays{"a", kPlays, Film::kMoving}, paused{"b", kPaused, Film::kMoving};
   const PlayerView music{"c", kPlays, Film::kNone}, lost{"d", kPlays, Film::kMoving, false};
-  EXPECT_EQ(say_choice(nullptr, &plays, ""), "follows a");
-  EXPECT_EQ(say_choice(nullptr, &paused, ""), "b is paused in a film: follows b");
-  EXPECT_EQ(say_choice(&paused, &plays, ""), "b is paused, and a plays: follows a");
-  EXPECT_EQ(say_choice(&plays, &paused, "has ended"),
+  EXPECT_EQ(choice_text(nullptr, &plays, ""), "follows a");
+  EXPECT_EQ(choice_text(nullptr, &paused, ""), "b is paused in a film: follows b");
+  EXPECT_EQ(choice_text(&paused, &plays, ""), "b is paused, and a plays: follows a");
+  EXPECT_EQ(choice_text(&plays, &paused, "has ended"),
             "a has ended, and b is paused in a film: follows b");
-  EXPECT_EQ(say_choice(&music, &plays, ""), "c plays no film, and a plays: follows a");
-  EXPECT_EQ(say_choice(&lost, &plays, ""),
+  EXPECT_EQ(choice_text(&music, &plays, ""), "c plays no film, and a plays: follows a");
+  EXPECT_EQ(choice_text(&lost, &plays, ""),
             "d does not tell where it is in its film, and a plays: follows a");
-  EXPECT_EQ(say_choice(&plays, nullptr, "has ended"),
+  EXPECT_EQ(choice_text(&plays, nullptr, "has ended"),
             "a has ended; waits for a player that plays a film");
 }
 

@@ -29,7 +29,7 @@ std::vector<window::ToWindow> to_window_messages() {
 }
 
 std::vector<window::FromWindow> from_window_messages() {
-  return {window::Ask(),
+  return {window::RequestFrames(),
           window::SlotFree{1, 2},
           window::ChangeSetting{"max-force", 2.5},
           window::LeadHand{Eigen::Vector3d(1, 2, 3)},
@@ -221,7 +221,7 @@ TEST_F(ChannelTest, EndsWhenMoreComesThanItsLimits) {
     to.fill();
     while (to.next()) {
     }
-    return !to.is_not_understood();
+    return !to.is_incompatible();
   };
   EXPECT_TRUE(is_understood(100, 1));
   EXPECT_FALSE(is_understood(101, 0));
@@ -253,7 +253,7 @@ TEST_F(ChannelTest, DoesNotUnderstandAnotherVersionNorNonsense) {
     ASSERT_EQ(write(ends[0], bytes, count), static_cast<ssize_t>(count));
     channel.fill();
     EXPECT_FALSE(channel.next());
-    EXPECT_TRUE(channel.is_not_understood());
+    EXPECT_TRUE(channel.is_incompatible());
     EXPECT_TRUE(channel.is_gone());
     ::close(ends[0]);
   }

@@ -118,7 +118,8 @@ TEST_F(WindowTest, FramesOfAnotherSizeFollow) {
   ASSERT_TRUE(gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ));
   DrawnFrame report;
   report.visible = visible_part(frame);
-  while (!window.give(frame, report)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  while (!window.queue_frame(frame, report))
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   gst_video_frame_unmap(&frame);
   gst_buffer_unref(buffer);
   EXPECT_NEAR(level_in(window), 160, 1);
@@ -226,7 +227,7 @@ TEST_F(WindowTest, OneThatAsksAndDoesNotReadIsNotAnswered) {
   window::ElementState state;
   state.no_force = std::string(1'000'000, 'x');
   const auto source = std::make_shared<FakeSource>(state);
-  const LyingWindow lying(std::vector<window::FromWindow>(500, window::Ask()));
+  const LyingWindow lying(std::vector<window::FromWindow>(500, window::RequestFrames()));
   {
     const window::Window window(source);
     lying.await_sent();

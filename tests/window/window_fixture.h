@@ -88,7 +88,7 @@ class WindowTest : public testing::Test {
     gst_video_frame_map(&frame, &info, buffer, GST_MAP_READ);
     report.visible = visible_part(frame);
     report.frame.place = FilmPlace::whole(320, 240);
-    while (!window.wants_frame() || !window.give(frame, report)) {
+    while (!window.wants_frame() || !window.queue_frame(frame, report)) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     gst_video_frame_unmap(&frame);

@@ -84,7 +84,7 @@ std::string text_for_people(GstMessage* message) {
   return error->message;
 }
 
-std::optional<bool> says_simulated(GstMessage* message) {
+std::optional<bool> parse_is_simulated(GstMessage* message) {
   const GstStructure* const told = gst_message_get_structure(message);
   gboolean simulated = FALSE;
   if (!told || !gst_structure_has_name(told, "spidar-device") ||

@@ -35,6 +35,6 @@ std::string set_properties(GstElement* felt, const std::vector<std::string>& pro
 std::string text_for_people(GstMessage* message);
 
 /// Whether the message says that a simulated device was opened; nothing for other messages.
-std::optional<bool> says_simulated(GstMessage* message);
+std::optional<bool> parse_is_simulated(GstMessage* message);
 
 }  // namespace spidar::follow

@@ -38,7 +38,7 @@ void link_track(GstElement*, GstPad* pad, gpointer decode) {
   }
 }
 
-void give_base_time(const GValue* element, gpointer base) {
+void set_element_base_time(const GValue* element, gpointer base) {
   gst_element_set_base_time(GST_ELEMENT(g_value_get_object(element)),
                             *static_cast<GstClockTime*>(base));
 }
@@ -72,8 +72,8 @@ class FollowedFilm {
     while (GstMessage* const message = gst_bus_pop(bus.get())) {
       const std::string text = text_for_people(message);
       // Elements report one fault in several messages.
-      if (!failed_ && !text.empty() && said_.insert(text).second) print_message(text);
-      is_simulated_ = says_simulated(message).value_or(is_simulated_);
+      if (!failed_ && !text.empty() && printed_.insert(text).second) print_message(text);
+      is_simulated_ = parse_is_simulated(message).value_or(is_simulated_);
       if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR) failed_ = true;
       if (GST_MESSAGE_TYPE(message) == GST_MESSAGE_REQUEST_STATE) {
         GstState wanted;
@@ -173,7 +173,7 @@ class FollowedFilm {
     felt_ = felt.get();
     sink_ = sink.get();
     const Ref<GstPad> pictures(gst_element_get_static_pad(felt_, "sink"));
-    gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, take_seek, this, nullptr);
+    gst_pad_add_probe(pictures.get(), GST_PAD_PROBE_TYPE_EVENT_UPSTREAM, on_seek, this, nullptr);
     g_object_set(source.get(), "uri", plan_.uri.c_str(), nullptr);
     videos_.watch(source.get());
     g_signal_connect(source.get(), "no-more-pads", G_CALLBACK(choose_stream), this);
@@ -182,7 +182,7 @@ class FollowedFilm {
   }
 
   /// Turns a seek of the debug window into a request to the player, which this film then follows.
-  static GstPadProbeReturn take_seek(GstPad*, GstPadProbeInfo* info, gpointer user) {
+  static GstPadProbeReturn on_seek(GstPad*, GstPadProbeInfo* info, gpointer user) {
     auto& self = *static_cast<FollowedFilm*>(user);
     GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
     if (GST_EVENT_TYPE(event) != GST_EVENT_SEEK || gst_event_get_seqnum(event) == self.own_seek_) {
@@ -239,7 +239,7 @@ class FollowedFilm {
     gst_element_set_base_time(pipeline_.get(), base);
     GstIterator* const all = gst_bin_iterate_recurse(GST_BIN(pipeline_.get()));
     // Elements that are added meanwhile get the base time from their bin.
-    while (gst_iterator_foreach(all, give_base_time, &base) == GST_ITERATOR_RESYNC) {
+    while (gst_iterator_foreach(all, set_element_base_time, &base) == GST_ITERATOR_RESYNC) {
       gst_iterator_resync(all);
     }
     gst_iterator_free(all);
@@ -291,7 +291,7 @@ class FollowedFilm {
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
   GstElement* sink_ = nullptr;  ///< the sink that waits for the clock
   std::string begins_;          ///< printed when it plays for the first time
-  std::set<std::string> said_;
+  std::set<std::string> printed_;
   bool is_simulated_ = false;  ///< no device renders it
   double rate_ = 1;
   bool ready_ = false;  ///< prerolled
@@ -312,7 +312,7 @@ constexpr std::chrono::milliseconds kTick{10};
 constexpr int64_t kStale_ns = 300'000'000;
 
 /// Returns false when the film has failed.
-bool go_to(FollowedFilm& film, const FilmGoal& goal) {
+bool apply_goal(FollowedFilm& film, const FilmGoal& goal) {
   if (!film.check()) return false;
   const int64_t now_ns = monotonic_now_ns();
   const int64_t passed_ns = now_ns - goal.at_ns;
@@ -334,7 +334,7 @@ FilmThread::~FilmThread() {
   thread_.join();
 }
 
-void FilmThread::aim(FilmGoal goal) {
+void FilmThread::set_goal(FilmGoal goal) {
   const std::lock_guard<std::mutex> lock(mutex_);
   goal_ = std::move(goal);
 }
@@ -367,7 +367,7 @@ void FilmThread::run() {
         print_message(plan->name + ": " + error.what());
       }
     }
-    if (film && !go_to(*film, goal)) {
+    if (film && !apply_goal(*film, goal)) {
       print_message("without force until the next film: " + plan->name);
       film.reset();
     }

@@ -48,7 +48,7 @@ class FilmThread {
   FilmThread& operator=(const FilmThread&) = delete;
 
   /// Sets the goal. Call this every few tens of milliseconds: else the force rests after 0.3 s.
-  void aim(FilmGoal goal);
+  void set_goal(FilmGoal goal);
   /// Returns the requests since the last call.
   FilmRequest take_request();
   /// Closes what is open. Returns false if that takes longer than `limit`; the thread then still

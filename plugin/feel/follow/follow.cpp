@@ -51,10 +51,10 @@ class Follower {
     stopped_ = true;
     const int64_t until_ns = monotonic_now_ns() + std::chrono::nanoseconds(kEnd).count();
     if (!thread_->end(kEnd)) return false;
-    while (looking_ > 0 && monotonic_now_ns() < until_ns) {
+    while (planning_ > 0 && monotonic_now_ns() < until_ns) {
       g_main_context_iteration(nullptr, TRUE);  // the timer continues
     }
-    return looking_ == 0;
+    return planning_ == 0;
   }
 
  private:
@@ -70,8 +70,8 @@ class Follower {
   static constexpr int64_t kNoAnswer_ns = 300'000'000;
   /// For this time, no paused player is followed, because others have yet to report that they play.
   static constexpr int64_t kSettle_ns = 1'000'000'000;
-  static constexpr int kMaxLooks = 8;       ///< films that are examined at the same time
-  static constexpr size_t kMaxSaid = 1000;  ///< sentences that are remembered
+  static constexpr int kMaxPlans = 8;          ///< films that are examined at the same time
+  static constexpr size_t kMaxPrinted = 1000;  ///< sentences that are remembered
   static constexpr const char* kRefuses =
       " does not let other programs control it: pause it, and seek, in its own window";
   /// How long reading files and closing devices may take at the end.
@@ -85,7 +85,7 @@ class Follower {
     self.forget_gone();
     self.judge_position(now_ns);
     self.choose(now_ns);
-    self.aim(now_ns);
+    self.update_goal(now_ns);
     self.carry_out(self.thread_->take_request());
     return G_SOURCE_CONTINUE;
   }
@@ -98,7 +98,7 @@ class Follower {
     list_players(bus_, name_, ended_.get(),
                  [this](const std::optional<std::vector<std::string>>& found) {
                    is_searching_ = false;
-                   if (!found) return tell_once("the session bus does not answer");
+                   if (!found) return print_once("the session bus does not answer");
                    has_searched_ = true;
                    for (const std::string& each : *found) add(each);
                  });
@@ -109,17 +109,18 @@ class Follower {
     if (player) return;
     player = std::make_unique<Player>(
         bus_, bus_name,
-        Player::Told{[this](Player& told) { take_state(told); },
-                     [this](int64_t now_ns, int64_t position_ns) {
-                       filter_.add(now_ns, position_ns);
-                       has_moved_ = has_moved_ || (!is_beginning_ && position_ns > position_ns_);
-                       take_position(now_ns, position_ns);
-                     },
-                     [this](int64_t now_ns, int64_t position_ns) {
-                       filter_.add_jump(now_ns, position_ns);
-                       take_position(now_ns, position_ns);
-                     },
-                     [this](Player& told) { tell_once(short_name(told.bus_name()) + kRefuses); }});
+        Player::Callbacks{
+            [this](Player& changed) { update_state(changed); },
+            [this](int64_t now_ns, int64_t position_ns) {
+              filter_.add(now_ns, position_ns);
+              has_moved_ = has_moved_ || (!is_beginning_ && position_ns > position_ns_);
+              add_position(now_ns, position_ns);
+            },
+            [this](int64_t now_ns, int64_t position_ns) {
+              filter_.add_jump(now_ns, position_ns);
+              add_position(now_ns, position_ns);
+            },
+            [this](Player& refusing) { print_once(short_name(refusing.bus_name()) + kRefuses); }});
   }
 
   /// A callback of a player must not destroy that player, which ends here.
@@ -138,9 +139,9 @@ class Follower {
     }
   }
 
-  void take_state(Player& told) {
-    if (&told != player_) return;
-    const PlayerState state = *told.state();
+  void update_state(Player& player) {
+    if (&player != player_) return;
+    const PlayerState state = *player.state();
     const bool plays = state.status == PlayerStatus::kPlaying;
     if (plays && filter_.has_begun() && state.rate != state_.rate) {
       filter_.change_rate(monotonic_now_ns(), state.rate);
@@ -162,7 +163,7 @@ class Follower {
     filter_ = PositionFilter();
   }
 
-  void take_position(int64_t now_ns, int64_t position_ns) {
+  void add_position(int64_t now_ns, int64_t position_ns) {
     position_ns_ = position_ns;
     if (std::exchange(is_beginning_, false)) filter_.reset(now_ns, position_ns, state_.rate);
   }
@@ -172,36 +173,36 @@ class Follower {
   /// Returns the plan of an address: null while the address is being examined.
   std::shared_ptr<const FilmPlan> plan_of(const std::string& address) {
     // A player may name another film before a slow disk has shown this one.
-    if (looking_ >= kMaxLooks && plans_.count(address) == 0) return nullptr;
+    if (planning_ >= kMaxPlans && plans_.count(address) == 0) return nullptr;
     const auto [found, is_new] = plans_.emplace(address, nullptr);
-    if (is_new) look_at(address);
+    if (is_new) start_planning(address);
     return found->second;
   }
 
-  void look_at(const std::string& address) {
-    ++looking_;
-    struct Look {
+  void start_planning(const std::string& address) {
+    ++planning_;
+    struct PlanTask {
       std::string address;
       const std::atomic<bool>* stopped;
       FilmPlan plan;
     };
-    const auto look = [](GTask* task, gpointer, gpointer data, GCancellable*) {
-      auto& asked = *static_cast<Look*>(data);
+    const auto run = [](GTask* task, gpointer, gpointer data, GCancellable*) {
+      auto& asked = *static_cast<PlanTask*>(data);
       asked.plan = plan_film(asked.address, asked.stopped);
       g_task_return_boolean(task, TRUE);
     };
-    const auto looked = [](GObject*, GAsyncResult* result, gpointer user) {
+    const auto finished = [](GObject*, GAsyncResult* result, gpointer user) {
       auto& self = *static_cast<Follower*>(user);
-      auto& found = *static_cast<Look*>(g_task_get_task_data(G_TASK(result)));
-      --self.looking_;
+      auto& found = *static_cast<PlanTask*>(g_task_get_task_data(G_TASK(result)));
+      --self.planning_;
       const auto plan = self.plans_.find(found.address);
       if (plan == self.plans_.end()) return;
       plan->second = std::make_shared<const FilmPlan>(std::move(found.plan));
     };
-    GTask* const task = g_task_new(nullptr, nullptr, looked, this);
-    g_task_set_task_data(task, new Look{address, &stopped_, {}},
-                         [](gpointer data) { delete static_cast<Look*>(data); });
-    g_task_run_in_thread(task, look);
+    GTask* const task = g_task_new(nullptr, nullptr, finished, this);
+    g_task_set_task_data(task, new PlanTask{address, &stopped_, {}},
+                         [](gpointer data) { delete static_cast<PlanTask*>(data); });
+    g_task_run_in_thread(task, run);
     g_object_unref(task);
   }
 
@@ -248,12 +249,12 @@ class Follower {
     const bool is_changed = next != followed || gone_;
     if (is_changed && (is_settled || (next && !is_paused))) {
       const PlayerView* const last = gone_ ? &*gone_ : followed ? &views[*followed] : nullptr;
-      print_message(say_choice(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
+      print_message(choice_text(last, next ? &views[*next] : nullptr, gone_ ? "has ended" : ""));
       has_said_that_it_waits_ = true;
       gone_.reset();
       follow(next ? players[*next] : nullptr);
     }
-    if (!player_ && is_settled) say_why_none(views, players);
+    if (!player_ && is_settled) print_why_none(views, players);
   }
 
   /// Forgets films that no player plays any more, so that a changed file is examined again.
@@ -273,33 +274,33 @@ class Follower {
     filter_ = PositionFilter();
     if (!player_) return;
     player_->watch(true);
-    take_state(*player_);
+    update_state(*player_);
   }
 
   // --- messages ---------------------------------------------------------------------------------
 
-  void tell_once(const std::string& text) {
-    if (said_.size() >= kMaxSaid) said_.clear();
-    if (said_.insert(text).second) print_message(text);
+  void print_once(const std::string& text) {
+    if (printed_.size() >= kMaxPrinted) printed_.clear();
+    if (printed_.insert(text).second) print_message(text);
   }
 
-  void say_why_none(const std::vector<PlayerView>& views, const std::vector<Player*>& players) {
+  void print_why_none(const std::vector<PlayerView>& views, const std::vector<Player*>& players) {
     for (size_t i = 0; i < views.size(); ++i) {
       if (views[i].status != PlayerStatus::kPlaying) continue;
       if (repeats_another(views[i].name) && name_.empty()) continue;
       const std::string& uri = players[i]->state()->uri;
       if (uri.empty()) {
-        tell_once(views[i].name + " does not say which file it plays");
+        print_once(views[i].name + " does not say which file it plays");
         continue;
       }
       const auto plan = plans_.find(uri);
       if (plan == plans_.end()) {
         const bool is_web = g_str_has_prefix(uri.c_str(), "http");
-        tell_once(views[i].name + " plays " + uri + ", which is no file of this machine" +
-                  (is_web ? "; it is followed with spidar-feel --follow " + views[i].name : ""));
+        print_once(views[i].name + " plays " + uri + ", which is no file of this machine" +
+                   (is_web ? "; it is followed with spidar-feel --follow " + views[i].name : ""));
       } else if (plan->second) {
-        tell_once(views[i].name + " plays " + plan->second->name + ": " + plan->second->refused +
-                  "; without force until the next film");
+        print_once(views[i].name + " plays " + plan->second->name + ": " + plan->second->refused +
+                   "; without force until the next film");
       }
     }
     if (std::exchange(has_said_that_it_waits_, true)) return;
@@ -318,16 +319,16 @@ class Follower {
         ", so nothing of it is felt; VLC and mpv tell it, and spidar-feel FILM plays by itself";
     const int64_t moved_ns = std::max(filter_.newest_ns(), began_ns_);
     if (filter_.runs_backwards()) {
-      tell_once(name + " plays backwards, which is not felt: play it forwards");
+      print_once(name + " plays backwards, which is not felt: play it forwards");
       is_placed_ = false;
     } else if (!player_->has_position()) {
-      tell_once(name + " does not tell where it is in its film" + kHelp);
+      print_once(name + " does not tell where it is in its film" + kHelp);
       is_placed_ = false;
     } else if (now_ns - moved_ns > kLost_ns) {
-      tell_once(name +
-                formatted(" says that it plays, and that it stands at %.1f s",
-                          1e-9 * static_cast<double>(position_ns_)) +
-                kHelp);
+      print_once(name +
+                 formatted(" says that it plays, and that it stands at %.1f s",
+                           1e-9 * static_cast<double>(position_ns_)) +
+                 kHelp);
       is_placed_ = false;
     } else if (!is_placed_ && filter_.newest_ns() > began_ns_) {
       is_placed_ = true;
@@ -336,7 +337,7 @@ class Follower {
 
   // --- the goal ---------------------------------------------------------------------------------
 
-  void aim(int64_t now_ns) {
+  void update_goal(int64_t now_ns) {
     FilmGoal goal;
     if (player_ && state_.status != PlayerStatus::kStopped) {
       const auto plan = plans_.find(state_.uri);
@@ -345,7 +346,7 @@ class Follower {
       }
     }
     if (goal.plan) {
-      if (!goal.plan->remark.empty()) tell_once(goal.plan->remark);
+      if (!goal.plan->remark.empty()) print_once(goal.plan->remark);
       const bool stands = now_ns - std::max(filter_.newest_ns(), began_ns_) > kStandstill_ns ||
                           player_->silent_ns() > kNoAnswer_ns || filter_.runs_backwards();
       const bool plays = state_.status == PlayerStatus::kPlaying;
@@ -357,7 +358,7 @@ class Follower {
         goal.position_ns = filter_.position_at(now_ns) - lead_ns(*goal.plan);
       }
     }
-    thread_->aim(std::move(goal));
+    thread_->set_goal(std::move(goal));
   }
 
   /// Controls the player that is followed.
@@ -366,7 +367,7 @@ class Follower {
     const bool plays = state_.status == PlayerStatus::kPlaying;
     const bool toggles = request.plays && *request.plays != plays;
     if ((toggles && !state_.can_pause) || (request.position_ns && !state_.can_seek)) {
-      return tell_once(short_name(player_->bus_name()) + kRefuses);
+      return print_once(short_name(player_->bus_name()) + kRefuses);
     }
     if (request.position_ns)
       player_->seek(*request.position_ns, *request.position_ns - position_ns_);
@@ -389,8 +390,8 @@ class Follower {
   std::map<std::string, std::unique_ptr<Player>> players_;  ///< by their bus names
   std::map<std::string, std::shared_ptr<const FilmPlan>> plans_;
   std::set<std::string> used_;  ///< the addresses that players play
-  int looking_ = 0;             ///< number of files that are being examined
-  std::set<std::string> said_;
+  int planning_ = 0;            ///< number of files that are being examined
+  std::set<std::string> printed_;
   bool has_said_that_it_waits_ = false;
   Player* player_ = nullptr;
   std::optional<PlayerView> gone_;  ///< the followed player that has gone, until its end is printed

@@ -106,46 +106,49 @@ std::string short_name(const std::string& bus_name) {
 
 void list_players(GDBusConnection* bus, const std::string& name, GCancellable* ended,
                   std::function<void(std::optional<std::vector<std::string>>)> take) {
-  struct Question {
+  struct Query {
     std::string name;
     std::function<void(std::optional<std::vector<std::string>>)> take;
   };
   const auto answered = [](GObject* source, GAsyncResult* result, gpointer user) {
-    const std::unique_ptr<Question> question(static_cast<Question*>(user));
+    const std::unique_ptr<Query> query(static_cast<Query*>(user));
     const Answer answer = finish(source, result);
     if (answer.is_cancelled) return;
     if (!answer.reply || !g_variant_is_of_type(answer.reply.get(), G_VARIANT_TYPE("(as)"))) {
-      return question->take(std::nullopt);
+      return query->take(std::nullopt);
     }
     std::vector<std::string> found;
     GVariantIter* names = nullptr;
     g_variant_get(answer.reply.get(), "(as)", &names);
-    const std::string wanted = kPrefix + question->name;
+    const std::string wanted = kPrefix + query->name;
     for (const gchar* each = nullptr; g_variant_iter_next(names, "&s", &each);) {
-      const bool is_wanted = question->name.empty()
+      const bool is_wanted = query->name.empty()
                                  ? g_str_has_prefix(each, kPrefix)
                                  : each == wanted || g_str_has_prefix(each, (wanted + ".").c_str());
       if (is_wanted && found.size() < kMaxPlayers) found.emplace_back(each);
     }
     g_variant_iter_free(names);
-    question->take(std::move(found));
+    query->take(std::move(found));
   };
   g_dbus_connection_call(bus, kBus, "/org/freedesktop/DBus", kBus, "ListNames", nullptr, nullptr,
                          G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended, answered,
-                         new Question{name, std::move(take)});
+                         new Query{name, std::move(take)});
 }
 
-Player::Player(GDBusConnection* bus, const std::string& bus_name, Told told)
-    : bus_(bus), bus_name_(bus_name), told_(std::move(told)), ended_(g_cancellable_new()) {
+Player::Player(GDBusConnection* bus, const std::string& bus_name, Callbacks callbacks)
+    : bus_(bus),
+      bus_name_(bus_name),
+      callbacks_(std::move(callbacks)),
+      ended_(g_cancellable_new()) {
   const auto subscribe = [this](const char* sender, const char* interface, const char* signal,
                                 const char* path, const char* argument, GDBusSignalCallback take) {
     signals_.push_back(g_dbus_connection_signal_subscribe(bus_, sender, interface, signal, path,
                                                           argument, G_DBUS_SIGNAL_FLAGS_NONE, take,
                                                           this, nullptr));
   };
-  subscribe(bus_name_.c_str(), kProperties, "PropertiesChanged", kPath, kPlayer, take_signal);
-  subscribe(bus_name_.c_str(), kPlayer, "Seeked", kPath, nullptr, take_signal);
-  subscribe(kBus, kBus, "NameOwnerChanged", nullptr, bus_name_.c_str(), take_owner);
+  subscribe(bus_name_.c_str(), kProperties, "PropertiesChanged", kPath, kPlayer, on_signal);
+  subscribe(bus_name_.c_str(), kPlayer, "Seeked", kPath, nullptr, on_signal);
+  subscribe(kBus, kBus, "NameOwnerChanged", nullptr, bus_name_.c_str(), on_owner_changed);
   timer_ = g_timeout_add(kPoll_ms, poll, this);
   request_state();
 }
@@ -180,7 +183,8 @@ void Player::call(const char* method, GVariant* parameters, GAsyncReadyCallback 
 
 void Player::order(const char* method, GVariant* parameters) {
   g_dbus_connection_call(bus_, bus_name_.c_str(), kPath, kPlayer, method, parameters, nullptr,
-                         G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, take_obedience, this);
+                         G_DBUS_CALL_FLAGS_NO_AUTO_START, kAnswer_ms, ended_, on_order_answer,
+                         this);
 }
 
 void Player::toggle() {
@@ -196,16 +200,16 @@ void Player::seek(int64_t position_ns, int64_t distance_ns) {
   }
 }
 
-void Player::take_obedience(GObject* bus, GAsyncResult* result, gpointer user) {
+void Player::on_order_answer(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   auto& self = *static_cast<Player*>(user);
-  if (answer.is_refused) self.told_.refusal(self);
+  if (answer.is_refused) self.callbacks_.refusal(self);
 }
 
 void Player::request_position() {
   requested_ns_ = monotonic_now_ns();
-  call("Get", g_variant_new("(ss)", kPlayer, "Position"), take_position);
+  call("Get", g_variant_new("(ss)", kPlayer, "Position"), on_position);
 }
 
 /// Sends one query at a time, however many changes a player reports.
@@ -213,11 +217,11 @@ void Player::request_state() {
   state_changed_ = state_waits_;
   if (std::exchange(state_waits_, true)) return;
   state_requested_ns_ = monotonic_now_ns();
-  call("GetAll", all_of_player(), take_state);
+  call("GetAll", all_of_player(), on_state);
 }
 
 /// A player reads its position and then answers, so the position is late, never early.
-void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
+void Player::on_position(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   auto& self = *static_cast<Player*>(user);
@@ -235,11 +239,11 @@ void Player::take_position(GObject* bus, GAsyncResult* result, gpointer user) {
   const Ref<GVariant> position(inner);
   self.has_position_ = g_variant_is_of_type(inner, G_VARIANT_TYPE_INT64) != FALSE;
   if (self.has_position_ && self.is_watched_) {
-    self.told_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));
+    self.callbacks_.position(monotonic_now_ns(), ns_of(g_variant_get_int64(inner)));
   }
 }
 
-void Player::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
+void Player::on_state(GObject* bus, GAsyncResult* result, gpointer user) {
   const Answer answer = finish(bus, result);
   if (answer.is_cancelled) return;
   auto& self = *static_cast<Player*>(user);
@@ -249,23 +253,23 @@ void Player::take_state(GObject* bus, GAsyncResult* result, gpointer user) {
   auto state = state_in(answer.reply.get());
   if (!state) return;
   self.state_ = std::move(state);
-  self.told_.state(self);
+  self.callbacks_.state(self);
 }
 
-void Player::take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
-                         const gchar* name, GVariant* parameters, gpointer user) {
+void Player::on_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                       const gchar* name, GVariant* parameters, gpointer user) {
   auto& self = *static_cast<Player*>(user);
   if (!g_str_equal(name, "Seeked")) {
     self.request_state();  // the signal has only a part of the state
   } else if (self.is_watched_ && g_variant_is_of_type(parameters, G_VARIANT_TYPE("(x)"))) {
     gint64 position_us = 0;
     g_variant_get(parameters, "(x)", &position_us);
-    self.told_.jump(monotonic_now_ns(), ns_of(position_us));
+    self.callbacks_.jump(monotonic_now_ns(), ns_of(position_us));
   }
 }
 
-void Player::take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
-                        GVariant* parameters, gpointer user) {
+void Player::on_owner_changed(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                              const gchar*, GVariant* parameters, gpointer user) {
   const gchar* before = nullptr;
   g_variant_get(parameters, "(&s&s&s)", nullptr, &before, nullptr);
   // A player that gets the name while nobody has it is new, and is queried.

@@ -39,13 +39,13 @@ void list_players(GDBusConnection* bus, const std::string& name, GCancellable* e
 /// blocks, and each has a deadline. Callbacks run in the main loop; times are monotonic.
 class Player {
  public:
-  struct Told {
+  struct Callbacks {
     std::function<void(Player&)> state;  ///< called when a state was received
     /// Called for a player that is watched.
     std::function<void(int64_t now_ns, int64_t position_ns)> position, jump;
     std::function<void(Player&)> refusal;  ///< called when toggle() or seek() is refused
   };
-  Player(GDBusConnection* bus, const std::string& bus_name, Told told);
+  Player(GDBusConnection* bus, const std::string& bus_name, Callbacks callbacks);
   ~Player();
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;
@@ -71,13 +71,13 @@ class Player {
   static constexpr int64_t kAskState_ns = 1'000'000'000;
 
   static gboolean poll(gpointer self);
-  static void take_position(GObject* bus, GAsyncResult* result, gpointer self);
-  static void take_state(GObject* bus, GAsyncResult* result, gpointer self);
-  static void take_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
-                          const gchar* name, GVariant* parameters, gpointer self);
-  static void take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
-                         GVariant* parameters, gpointer self);
-  static void take_obedience(GObject* bus, GAsyncResult* result, gpointer self);
+  static void on_position(GObject* bus, GAsyncResult* result, gpointer self);
+  static void on_state(GObject* bus, GAsyncResult* result, gpointer self);
+  static void on_signal(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                        const gchar* name, GVariant* parameters, gpointer self);
+  static void on_owner_changed(GDBusConnection*, const gchar*, const gchar*, const gchar*,
+                               const gchar*, GVariant* parameters, gpointer self);
+  static void on_order_answer(GObject* bus, GAsyncResult* result, gpointer self);
   void order(const char* method, GVariant* parameters);
   void call(const char* method, GVariant* parameters, GAsyncReadyCallback take);
   void request_position();
@@ -85,7 +85,7 @@ class Player {
 
   GDBusConnection* const bus_;
   const std::string bus_name_;
-  const Told told_;
+  const Callbacks callbacks_;
   GCancellable* const ended_;
   std::vector<guint> signals_;
   guint timer_ = 0;

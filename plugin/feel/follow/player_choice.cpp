@@ -45,7 +45,7 @@ std::optional<size_t> choose_player(const std::vector<PlayerView>& players,
   return best;
 }
 
-std::string say_choice(const PlayerView* last, const PlayerView* next, const std::string& ended) {
+std::string choice_text(const PlayerView* last, const PlayerView* next, const std::string& ended) {
   std::string text;
   if (last) {
     text = last->name + " ";

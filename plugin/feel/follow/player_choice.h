@@ -34,6 +34,6 @@ std::optional<size_t> choose_player(const std::vector<PlayerView>& players,
 
 /// Returns a sentence that says why `next` is followed and no longer `last`. `ended`, "has ended",
 /// describes `last` if it is gone. Either player may be null, for none.
-std::string say_choice(const PlayerView* last, const PlayerView* next, const std::string& ended);
+std::string choice_text(const PlayerView* last, const PlayerView* next, const std::string& ended);
 
 }  // namespace spidar::follow

@@ -47,14 +47,14 @@ std::string message_of(GError* error) {
   return text;
 }
 
-void take_answer(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
-                 GVariant* parameters, gpointer answer) {
+void on_answer(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
+               GVariant* parameters, gpointer answer) {
   static_cast<std::optional<PortalAnswer>*>(answer)->emplace(parameters);
 }
 
 /// Ends the wait when the portal exits, because it then answers no call.
-void take_owner(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
-                GVariant* parameters, gpointer answer) {
+void on_owner_changed(GDBusConnection*, const gchar*, const gchar*, const gchar*, const gchar*,
+                      GVariant* parameters, gpointer answer) {
   const gchar* owner = "";
   if (read_variant(parameters, "(&s&s&s)", nullptr, nullptr, &owner) && !*owner) {
     static_cast<std::optional<PortalAnswer>*>(answer)->emplace();
@@ -233,10 +233,10 @@ Ref<GVariant> PortalView::ask(const char* method, std::vector<GVariant*> argumen
   std::optional<PortalAnswer> answer;
   const guint answered = g_dbus_connection_signal_subscribe(
       bus_.get(), kPortal, kRequest, "Response", path.c_str(), nullptr, G_DBUS_SIGNAL_FLAGS_NONE,
-      take_answer, &answer, nullptr);
+      on_answer, &answer, nullptr);
   const guint gone = g_dbus_connection_signal_subscribe(
       bus_.get(), "org.freedesktop.DBus", "org.freedesktop.DBus", "NameOwnerChanged", nullptr,
-      kPortal, G_DBUS_SIGNAL_FLAGS_NONE, take_owner, &answer, nullptr);
+      kPortal, G_DBUS_SIGNAL_FLAGS_NONE, on_owner_changed, &answer, nullptr);
   std::string failed;
   try {
     call(method, g_variant_new_tuple(arguments.data(), arguments.size()));

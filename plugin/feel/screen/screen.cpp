@@ -77,7 +77,7 @@ class FeltScreen {
     const std::string change = view_.change();
     if (!change.empty()) follow::print_message(change);
     if (view_.has_ended()) return false;
-    if (view_.is_shown()) say_what_is_seen();
+    if (view_.is_shown()) update_remarks();
     return true;
   }
 
@@ -93,8 +93,8 @@ class FeltScreen {
     const Ref<GstBus> bus(gst_element_get_bus(pipeline_));
     while (GstMessage* const message = gst_bus_pop(bus.get())) {
       const std::string text = follow::text_for_people(message);
-      if (!text.empty() && said_.insert(text).second) follow::print_message(text);
-      is_simulated_ = follow::says_simulated(message).value_or(is_simulated_);
+      if (!text.empty() && printed_.insert(text).second) follow::print_message(text);
+      is_simulated_ = follow::parse_is_simulated(message).value_or(is_simulated_);
       const bool is_over = GST_MESSAGE_TYPE(message) == GST_MESSAGE_ERROR ||
                            GST_MESSAGE_TYPE(message) == GST_MESSAGE_EOS;
       gst_message_unref(message);
@@ -103,16 +103,16 @@ class FeltScreen {
     return true;
   }
 
-  void say(Remark& last, const std::string& text) {
+  void update_remark(Remark& last, const std::string& text) {
     const int64_t now_ns = monotonic_now_ns();
     if (text != last.text) last = {text, now_ns, !text.empty()};
     if (!last.is_due || now_ns - last.since_ns < kBrief_ns) return;
     last.is_due = false;
-    if (std::exchange(told_, text) != text) follow::print_message(text);
+    if (std::exchange(last_remark_, text) != text) follow::print_message(text);
   }
 
   /// Returns an empty string while the film is unknown.
-  std::string words_for_film(const GstStructure* stats) const {
+  std::string film_text(const GstStructure* stats) const {
     const Ref<GstPad> pad(gst_element_get_static_pad(felt_, "sink"));
     const Ref<GstCaps> caps(gst_pad_get_current_caps(pad.get()));
     gint width = 0, height = 0;
@@ -136,16 +136,16 @@ class FeltScreen {
     return "no film with something at rest around it is seen: all of it is felt, " + size;
   }
 
-  void say_what_is_seen() {
+  void update_remarks() {
     GstStructure* stats = nullptr;
     g_object_get(felt_, "stats", &stats, nullptr);
-    say(film_, words_for_film(stats));
+    update_remark(film_, film_text(stats));
     const std::string device = text_in(stats, "device-no-force-text");
     std::string film = text_in(stats, "no-force-text");
     if (text_in(stats, "no-force-reason") == kResting) {
       film += " Protected video is captured black.";
     }
-    say(reason_, device.empty() ? film : device);
+    update_remark(reason_, device.empty() ? film : device);
     gst_structure_free(stats);
   }
 
@@ -153,10 +153,10 @@ class FeltScreen {
   GstElement* pipeline_;
   GstElement* felt_ = nullptr;  ///< owned by the pipeline
   bool is_simulated_ = false;
-  std::set<std::string> said_;  ///< printed messages
-  std::string told_;            ///< the last remark
-  Remark film_;                 ///< on the position of the film
-  Remark reason_;               ///< on why nothing is felt
+  std::set<std::string> printed_;  ///< printed messages
+  std::string last_remark_;        ///< the last remark
+  Remark film_;                    ///< on the position of the film
+  Remark reason_;                  ///< on why nothing is felt
 };
 
 struct Watch {

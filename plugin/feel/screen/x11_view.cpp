@@ -143,21 +143,21 @@ constexpr int kPictures_Hz = 60;
 constexpr int kOwnParts = 3;
 
 /// Which part of a window is visible.
-enum class Sight { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
+enum class WindowVisibility { kWhole, kPart, kCovered, kOutside, kHidden, kClosed };
 
-std::string words_for(Sight sight) {
-  switch (sight) {
-    case Sight::kWhole:
+std::string visibility_text(WindowVisibility visibility) {
+  switch (visibility) {
+    case WindowVisibility::kWhole:
       return "can be seen again";
-    case Sight::kPart:
+    case WindowVisibility::kPart:
       return "is covered in part, and what covers it is felt in its place: move that aside";
-    case Sight::kCovered:
+    case WindowVisibility::kCovered:
       return "is covered by another one, which is felt in its place: bring it to the front";
-    case Sight::kOutside:
+    case WindowVisibility::kOutside:
       return "reaches beyond the edge of the screen, and nothing of it is felt: move it inside";
-    case Sight::kHidden:
+    case WindowVisibility::kHidden:
       return "is minimised or on another desktop, and nothing of it is felt: bring it back";
-    case Sight::kClosed:
+    case WindowVisibility::kClosed:
       break;
   }
   return "is closed";
@@ -185,8 +185,8 @@ class X11View : public View {
   X11View(Connection connection, Window window)
       : connection_(std::move(connection)), display_(connection_.get()), window_(window) {
     XSelectInput(display_, window, VisibilityChangeMask);
-    look();
-    sight_ = sight();
+    update_state();
+    window_visibility_ = window_visibility();
   }
 
   std::string name() const override {
@@ -210,29 +210,33 @@ class X11View : public View {
     }
     const Ref<GstElement> capture(gst_bin_get_by_name(GST_BIN(source.get()), "capture"));
     const Ref<GstPad> pad(gst_element_get_static_pad(capture.get(), "src"));
-    gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, leave_out, this, nullptr);
+    gst_pad_add_probe(pad.get(), GST_PAD_PROBE_TYPE_BUFFER, filter_frame, this, nullptr);
     return source;
   }
 
   std::string change() override {
-    look();
-    const Sight seen = sight();
-    if (std::exchange(sight_, seen) == seen) return "";
-    return name_ + " " + words_for(seen);
+    update_state();
+    const WindowVisibility seen = window_visibility();
+    if (std::exchange(window_visibility_, seen) == seen) return "";
+    return name_ + " " + visibility_text(seen);
   }
   bool is_shown() const override {
-    return sight_ != Sight::kHidden && sight_ != Sight::kOutside && sight_ != Sight::kClosed;
+    return window_visibility_ != WindowVisibility::kHidden &&
+           window_visibility_ != WindowVisibility::kOutside &&
+           window_visibility_ != WindowVisibility::kClosed;
   }
-  bool has_ended() const override { return sight_ == Sight::kClosed; }
+  bool has_ended() const override { return window_visibility_ == WindowVisibility::kClosed; }
   /// What to print at the beginning; empty: the window is visible.
-  std::string first_words() const {
-    return sight_ == Sight::kWhole ? "" : name_ + " " + words_for(sight_);
+  std::string initial_message() const {
+    return window_visibility_ == WindowVisibility::kWhole
+               ? ""
+               : name_ + " " + visibility_text(window_visibility_);
   }
 
  private:
   bool is_whole() const { return window_ == DefaultRootWindow(display_); }
 
-  void look() {
+  void update_state() {
     XEvent event;
     while (XPending(display_) > 0) {
       XNextEvent(display_, &event);
@@ -252,20 +256,22 @@ class X11View : public View {
     return true;
   }
 
-  Sight sight() const {
+  WindowVisibility window_visibility() const {
     XWindowAttributes now{};
-    if (!XGetWindowAttributes(display_, window_, &now)) return Sight::kClosed;
-    if (is_whole()) return Sight::kWhole;
-    if (now.map_state != IsViewable) return Sight::kHidden;
-    if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1)) return Sight::kOutside;
-    if (visibility_ == VisibilityFullyObscured) return Sight::kCovered;
-    return visibility_ == VisibilityPartiallyObscured ? Sight::kPart : Sight::kWhole;
+    if (!XGetWindowAttributes(display_, window_, &now)) return WindowVisibility::kClosed;
+    if (is_whole()) return WindowVisibility::kWhole;
+    if (now.map_state != IsViewable) return WindowVisibility::kHidden;
+    if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1))
+      return WindowVisibility::kOutside;
+    if (visibility_ == VisibilityFullyObscured) return WindowVisibility::kCovered;
+    return visibility_ == VisibilityPartiallyObscured ? WindowVisibility::kPart
+                                                      : WindowVisibility::kWhole;
   }
 
   /// Moves a window that has just opened into the lower right corner of the screen: a window
   /// manager or its absence may have put it over the film, which would be hidden then.
-  void put_aside(Window own) {
-    if (!put_aside_.insert(own).second || !has_looked_) return;
+  void move_to_corner(Window own) {
+    if (!moved_.insert(own).second || !has_searched_) return;
     const int screen = DefaultScreen(display_);
     const int width = DisplayWidth(display_, screen), height = DisplayHeight(display_, screen);
     const auto side = [](int length) { return static_cast<unsigned>(length / kOwnParts); };
@@ -283,10 +289,10 @@ class X11View : public View {
           !XTranslateCoordinates(display_, window, window_, 0, 0, &now.x, &now.y, &child)) {
         continue;
       }
-      put_aside(window);
+      move_to_corner(window);
       if (is_whole()) found.push_back(now);
     }
-    has_looked_ = true;
+    has_searched_ = true;
     const std::lock_guard<std::mutex> lock(mutex_);
     own_ = std::move(found);
   }
@@ -294,7 +300,7 @@ class X11View : public View {
   /// Where ximagesrc cannot read, it repeats the old content of its buffers: several old pictures
   /// in turn, whose motion would be felt, so this probe drops them. The debug window shows the film
   /// a second time, so this probe paints that window black, which is still and no film.
-  static GstPadProbeReturn leave_out(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
+  static GstPadProbeReturn filter_frame(GstPad* pad, GstPadProbeInfo* info, gpointer user) {
     if (take_x11_failure()) return GST_PAD_PROBE_DROP;
     auto& self = *static_cast<X11View*>(user);
     const std::lock_guard<std::mutex> lock(self.mutex_);
@@ -317,9 +323,9 @@ class X11View : public View {
   const Window window_;
   std::string name_;
   int visibility_ = VisibilityUnobscured;
-  Sight sight_ = Sight::kWhole;
-  std::set<Window> put_aside_;
-  bool has_looked_ = false;  // windows that are open at the first search were placed by the user
+  WindowVisibility window_visibility_ = WindowVisibility::kWhole;
+  std::set<Window> moved_;
+  bool has_searched_ = false;  // windows that are open at the first search were placed by the user
   std::mutex mutex_;
   std::vector<XWindowAttributes> own_;  ///< their x and y are those on the screen
 };
@@ -379,7 +385,8 @@ std::unique_ptr<View> view_of_x11(const std::string& what) {
   }
   const Window window = chosen_window(connection.get(), what);
   auto view = std::make_unique<X11View>(std::move(connection), window);
-  if (const std::string words = view->first_words(); !words.empty()) follow::print_message(words);
+  if (const std::string words = view->initial_message(); !words.empty())
+    follow::print_message(words);
   return view;
 }
 

@@ -37,19 +37,19 @@ struct _GstSpidarFeelBin {
   // For the streaming thread: how pictures must be turned for display, and whether no element does
   // so.
   spidar::StreamOrientation orientation;
-  bool lies;
+  bool is_misoriented;
 };
 
 G_DEFINE_FINAL_TYPE(GstSpidarFeelBin, gst_spidar_feel_bin, GST_TYPE_BIN)
 
 static std::atomic<GstSpidarFeelBin*> device_owner{nullptr};
 
-static bool take_device(GstSpidarFeelBin* self) {
+static bool reserve_device(GstSpidarFeelBin* self) {
   GstSpidarFeelBin* nobody = nullptr;
   return device_owner.compare_exchange_strong(nobody, self);
 }
 
-static void leave_device(GstSpidarFeelBin* self) {
+static void release_device(GstSpidarFeelBin* self) {
   device_owner.compare_exchange_strong(self, nullptr);
 }
 
@@ -185,7 +185,7 @@ static GstElement* front(GstSpidarFeelBin* self) {
 }
 
 /// Replaces the element between `before` and `after` by `in`. No data may flow there meanwhile.
-static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
+static void replace_element(GstSpidarFeelBin* self, GstElement* in) {
   GstElement* const out = self->in_place;
   gst_element_unlink_many(front(self), out, self->after, nullptr);
   // In READY, unlike NULL, a spidarmotion keeps its device, at rest, for frames that it can
@@ -202,7 +202,7 @@ static void put_in_place(GstSpidarFeelBin* self, GstElement* in) {
 static void stop_measuring(GstSpidarFeelBin* self) {
   if (self->in_place == self->middle) return;
   const Ref<GstElement> before = spidar::new_ref(self->in_place);
-  put_in_place(self, self->middle);
+  replace_element(self, self->middle);
   if (before.get() == self->motion) return;
   gst_bin_remove(GST_BIN(before.get()), self->motion);
   gst_element_set_state(before.get(), GST_STATE_NULL);
@@ -214,7 +214,7 @@ static void measure(GstSpidarFeelBin* self, const GstCaps* caps) {
   if (self->in_place == self->motion && !in_gpu) return;
   stop_measuring(self);
   GstElement* const in = in_gpu ? spidar::small_copy_bin_new(caps, self->motion) : self->motion;
-  if (in) put_in_place(self, in);
+  if (in) replace_element(self, in);
 }
 
 /// Whether the element turns pictures as their tag image-orientation says.
@@ -269,14 +269,15 @@ static void add_flip(GstSpidarFeelBin* self) {
 /// Sets a direction: with auto, the videoflip of GStreamer 1.22 would turn the next film, too.
 static void turn_pictures(GstSpidarFeelBin* self) {
   const GstVideoOrientationMethod method = self->orientation.method();
-  self->lies = method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
-  if (self->lies && self->turns) add_flip(self);
+  self->is_misoriented =
+      method != GST_VIDEO_ORIENTATION_IDENTITY && !self->flip && !is_turned_behind(self);
+  if (self->is_misoriented && self->turns) add_flip(self);
   if (!self->flip) return;
-  self->lies = false;
+  self->is_misoriented = false;
   g_object_set(self->flip, "video-direction", method, nullptr);
 }
 
-static void take_tags(GstSpidarFeelBin* self, GstEvent* event) {
+static void update_orientation(GstSpidarFeelBin* self, GstEvent* event) {
   GstTagList* tags = nullptr;
   gst_event_parse_tag(event, &tags);
   if (self->orientation.update(tags)) turn_pictures(self);
@@ -287,10 +288,10 @@ static void begin_stream(GstSpidarFeelBin* self) {
   turn_pictures(self);
 }
 
-static void tell_that_it_lies(GstSpidarFeelBin* self) {
-  static std::atomic<bool> has_told{false};
-  self->lies = false;
-  if (has_told.exchange(true)) return;
+static void warn_of_orientation(GstSpidarFeelBin* self) {
+  static std::atomic<bool> has_warned{false};
+  self->is_misoriented = false;
+  if (has_warned.exchange(true)) return;
   constexpr const char* kHelp =
       "unless the player turns it, force and picture do not agree: spidar-feel FILM turns it";
   g_printerr(
@@ -307,7 +308,7 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
   if ((info->type & GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM) != 0) {
     GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
     if (GST_EVENT_TYPE(event) == GST_EVENT_STREAM_START) begin_stream(self);
-    if (GST_EVENT_TYPE(event) == GST_EVENT_TAG) take_tags(self, event);
+    if (GST_EVENT_TYPE(event) == GST_EVENT_TAG) update_orientation(self, event);
     if (GST_EVENT_TYPE(event) != GST_EVENT_CAPS) return GST_PAD_PROBE_OK;
   }
   GstCaps* caps = nullptr;
@@ -316,7 +317,7 @@ static GstPadProbeReturn before_data(GstPad*, GstPadProbeInfo* info, gpointer da
   }
   if (motion && caps) measure(self, caps);
   if (motion && !caps && self->in_place == self->middle) measure(self, current_caps(self).get());
-  if (motion && self->lies) tell_that_it_lies(self);
+  if (motion && self->is_misoriented) warn_of_orientation(self);
   return GST_PAD_PROBE_OK;
 }
 
@@ -340,11 +341,11 @@ static GstFlowReturn chain_list(GstPad* pad, GstObject* parent, GstBufferList* l
 }
 
 static void begin_to_feel(GstSpidarFeelBin* self) {
-  if (self->motion || is_felt_already(self) || !take_device(self)) return;
+  if (self->motion || is_felt_already(self) || !reserve_device(self)) return;
   if (Ref<GstElement> motion = open_motion(self)) {
     g_atomic_pointer_set(&self->motion, motion.release());
   } else {
-    leave_device(self);
+    release_device(self);
   }
 }
 
@@ -355,7 +356,7 @@ static void stop_feeling(GstSpidarFeelBin* self) {
   const Ref<GstElement> motion(self->motion);
   g_atomic_pointer_set(&self->motion, static_cast<GstElement*>(nullptr));
   gst_element_set_state(motion.get(), GST_STATE_NULL);
-  leave_device(self);
+  release_device(self);
 }
 
 static GstStateChangeReturn gst_spidar_feel_bin_change_state(GstElement* element,

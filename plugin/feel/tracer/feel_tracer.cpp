@@ -61,14 +61,14 @@ static void set_filter(GstElement* element) {
 
 /// Prints, once, that there is no video: when a playbin begins to play and its filter is still
 /// without a parent.
-static void tell_without_video(GstElement* element) {
-  static std::atomic<bool> has_told{false};
+static void print_no_video(GstElement* element) {
+  static std::atomic<bool> has_printed{false};
   GstElement* filter = nullptr;
   g_object_get(element, "video-filter", &filter, nullptr);
   const spidar::Ref<GstElement> own(filter);
   if (!own || !GST_IS_SPIDAR_FEEL_BIN(filter)) return;
   const spidar::Ref<GstObject> parent(gst_object_get_parent(GST_OBJECT(filter)));
-  if (parent || has_told.exchange(true)) return;
+  if (parent || has_printed.exchange(true)) return;
   g_printerr(
       "spidar-feel: there is no video in it, so nothing is felt; a haptic track is played by "
       "spidarsink\n");
@@ -79,7 +79,7 @@ static void before_state_change(GstTracer*, GstClockTime, GstElement* element,
                                 GstStateChange transition) {
   if (transition == GST_STATE_CHANGE_READY_TO_PAUSED && is_playbin(element)) set_filter(element);
   if (transition == GST_STATE_CHANGE_PAUSED_TO_PLAYING && is_playbin(element)) {
-    tell_without_video(element);
+    print_no_video(element);
   }
 }
 

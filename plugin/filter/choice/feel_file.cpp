@@ -43,7 +43,7 @@ std::vector<FeelRule> rules_in(const std::string& text) {
 }
 
 /// Copies the file to the first free name of `path`~, `path`~~, …, and returns that name.
-std::string keep_copy(const std::string& path) {
+std::string back_up(const std::string& path) {
   std::string copy = path + "~";
   std::error_code failed;
   while (fs::exists(copy, failed)) copy += "~";
@@ -95,7 +95,7 @@ std::string save_feel(const std::string& feel, const std::string& film,
   std::vector<FeelRule> rules = rules_in(before);
   const bool loses_text = before != file_text(rules);
   for (const FeelEdit& edit : edits) rules = edited(rules, edit);
-  const std::string copy = loses_text ? keep_copy(path) : "";
+  const std::string copy = loses_text ? back_up(path) : "";
   if (!rules.empty()) {
     replace_file(path, file_text(rules));
   } else if (is_there && !fs::remove(path, ignored)) {

@@ -31,7 +31,7 @@ void MotionChoice::begin_stream(const std::string& film) {
 
 void MotionChoice::read(const std::string& feel, GstPad* sink) {
   NamedRules found;
-  told_.clear();
+  posted_.clear();
   warned_of_mean_ = false;
   try {
     found = read_feel(feel, film_);
@@ -100,7 +100,7 @@ std::string MotionChoice::seen_text() const {
 }
 
 void MotionChoice::warn_of_rule(const FeelRule& rule, Chosen::State state) {
-  if (!told_.emplace(rule.line, state).second) return;
+  if (!posted_.emplace(rule.line, state).second) return;
   const std::string position = position_text(rule.position), end = until(rule);
   const char* const name = named_.name.c_str();
   switch (state) {

@@ -38,7 +38,7 @@ class MotionChoice {
   /// Call this when the property `feel` was set. Any thread.
   void rules_changed() { is_read_ = false; }
   /// Returns true once after each change: call read() before the next frame.
-  bool is_to_read() { return !is_read_.exchange(true); }
+  bool must_read() { return !is_read_.exchange(true); }
   /// Reads the rules that `feel` selects, and posts warnings about mistakes in them. Queries the
   /// duration of the film from the peer of `sink`.
   void read(const std::string& feel, GstPad* sink);
@@ -65,8 +65,8 @@ class MotionChoice {
   mutable std::mutex mutex_;  ///< guards changes of `named_`, and its use in other threads
   NamedRules named_;
   bool warned_of_mean_ = false;
-  std::set<std::pair<int, Chosen::State>> told_;  ///< line of the rule, posted state
-  GstClockTime seen_ = 0;                         ///< stream time of the previous frame
+  std::set<std::pair<int, Chosen::State>> posted_;  ///< line of the rule, posted state
+  GstClockTime seen_ = 0;                           ///< stream time of the previous frame
 };
 
 }  // namespace spidar::filter

@@ -68,7 +68,7 @@ void MotionDisplay::show(const FrameReport& report, const FrameSettings& setting
                            .norm();
   }
   // The window gets the frame before the overlay draws into it, and draws its own arrows.
-  if (shown_in && shown_in->wants_frame()) shown_in->give(frame, shown);
+  if (shown_in && shown_in->wants_frame()) shown_in->queue_frame(frame, shown);
   // Both properties may have been turned on after the buffer was prepared for them.
   if (properties.attach_meta && gst_buffer_is_writable(frame.buffer)) {
     attach_motion_meta(frame.buffer, shown, width, height);

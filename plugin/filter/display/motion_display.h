@@ -54,7 +54,7 @@ class MotionDisplay {
   SinkHand& hand() { return hand_; }
   std::shared_ptr<window::Source> source() const;
   void open_window();
-  /// Closes the window, and waits for that for Window::kPatience at most.
+  /// Closes the window, and waits for that for Window::kCloseTimeout at most.
   void close_window();
   /// For tests and save_window(); null while there is no window.
   std::shared_ptr<window::Window> window() const;

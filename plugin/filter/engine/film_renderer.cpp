@@ -177,7 +177,7 @@ bool FilmRenderer::analyze(const PassingFrame& frame, const ImageView& luma, int
 
 void FilmRenderer::process(const PassingFrame& frame, FrameReport& report) {
   if (!follows(frame, report)) return;
-  const bool has_size = FrameLuma::takes(frame.video.info);
+  const bool has_size = FrameLuma::supports(frame.video.info);
   if (!has_size || !holds_picture(frame.video)) {
     begin_run();
     report.fault = has_size ? FrameReport::Fault::kTooSmall : FrameReport::Fault::kWrongSize;

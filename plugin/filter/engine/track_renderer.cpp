@@ -77,7 +77,7 @@ void TrackReplay::jump(int64_t time_ns) {
 bool TrackReplay::append() {
   const auto now = std::chrono::steady_clock::now();
   TrackBlock block;
-  const ReadAhead::Found found = track_->take(block, late_ ? now : now + kLongestWait);
+  const ReadAhead::Found found = track_->pop(block, late_ ? now : now + kLongestWait);
   late_ = found == ReadAhead::Found::kLate;
   if (found == ReadAhead::Found::kEnd) end_ns_ = INT64_MAX;
   if (found != ReadAhead::Found::kBlock) return false;

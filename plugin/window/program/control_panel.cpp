@@ -163,7 +163,7 @@ void draw_stop(const Brush& brush, const ElementState& state, ControlsActions& a
 
 /// Draws the two settings, a button that undoes all changes, and the presets.
 void draw_choices(const Brush& brush, const Rect& panel, const ElementState& state,
-                  const TwoSettings& settings, ControlsActions& actions) {
+                  const SettingsComparison& settings, ControlsActions& actions) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted("Compare");
   for (const size_t which : {size_t{0}, size_t{1}}) {
@@ -198,7 +198,7 @@ void explain_above(const Rect& panel, const char* text) {
 }
 
 ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                              const TwoSettings& settings) {
+                              const SettingsComparison& settings) {
   constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                       ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                       ImGuiWindowFlags_NoSavedSettings;

@@ -83,7 +83,7 @@ class DebugWindow {
   /// The object of a click that no frame contains yet, see ShownPicture; and the click before it.
   std::optional<uint32_t> requested_;
   uint32_t click_before_ = 0;
-  TwoSettings settings_;
+  SettingsComparison settings_;
   std::string title_;
   SeenObjects seen_objects_;
   std::map<std::string, SceneChoices> choices_;  ///< of each film by its path

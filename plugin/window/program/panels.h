@@ -11,8 +11,8 @@
 
 #include "plugin/window/program/model/layout.h"
 #include "plugin/window/program/model/scene_choices.h"
+#include "plugin/window/program/model/settings_comparison.h"
 #include "plugin/window/program/model/timeline.h"
-#include "plugin/window/program/model/two_settings.h"
 #include "plugin/window/program/style.h"
 #include "plugin/window/view/mouse_hand.h"
 #include "plugin/window/view/window_view.h"
@@ -49,7 +49,7 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
 void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline);
 /// Also draws the curve of the settings that are not in use, if they differ.
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
-               const ControllerSettings& controller, const TwoSettings& settings);
+               const ControllerSettings& controller, const SettingsComparison& settings);
 
 /// Draws what the mouse does, at the lower edge of the picture.
 void draw_hint(const Brush& brush, const Rect& picture, const std::string& line);
@@ -75,13 +75,13 @@ void draw_keys(const Brush& brush, const Rect& picture);
 struct ControlsActions {
   std::vector<std::pair<std::string, double>> changes;  ///< by name
   std::optional<std::string> preset;
-  std::optional<size_t> settings;  ///< the settings to use, see TwoSettings::use()
+  std::optional<size_t> settings;  ///< the settings to use, see SettingsComparison::use()
   bool resets = false;
 };
 /// Draws the button that stops the force, which stays visible; the two settings, presets, and
 /// widgets for each setting.
 ControlsActions draw_controls(const Brush& brush, const Rect& panel, const ElementState& state,
-                              const TwoSettings& settings);
+                              const SettingsComparison& settings);
 
 /// Shows a tooltip of the last widget above `panel`, so that it does not cover the content.
 void explain_above(const Rect& panel, const char* text);

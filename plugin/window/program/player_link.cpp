@@ -11,7 +11,7 @@ namespace spidar::window {
 namespace {
 
 /// A file of rules is short, but the disk may be asleep.
-constexpr std::chrono::seconds kSavePatience{2};
+constexpr std::chrono::seconds kSaveTimeout{2};
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void PlayerLink::receive() {
   while (const std::optional<std::vector<uint8_t>> packet = channel_->next()) {
     std::optional<ToWindow> message = to_window(*packet);
     if (!message) {
-      is_not_understood_ = true;
+      is_incompatible_ = true;
       return;
     }
     process(std::move(*message));
@@ -68,7 +68,7 @@ void PlayerLink::receive() {
 void PlayerLink::request_frame(std::chrono::milliseconds patience) {
   if (is_over()) return;
   // One request at a time: the answer to an earlier one is as good.
-  if (is_answered_ || state_.name.empty()) send(Ask());
+  if (is_answered_ || state_.name.empty()) send(RequestFrames());
   is_answered_ = false;
   const std::chrono::steady_clock::time_point until = std::chrono::steady_clock::now() + patience;
   while (!is_answered_ && !is_over() && wait(until)) receive();
@@ -138,7 +138,7 @@ ChoicesSaved PlayerLink::save(const std::string& film, const std::vector<FeelEdi
   if (request.size() > Channel::kFromWindow.bytes) return {false, "Not saved: too many choices."};
   channel_->send(request);
   const std::chrono::steady_clock::time_point until =
-      std::chrono::steady_clock::now() + kSavePatience;
+      std::chrono::steady_clock::now() + kSaveTimeout;
   while (!saved_ && wait(until)) receive();
   return saved_.value_or(ChoicesSaved{false, "Not saved: the player does not answer."});
 }

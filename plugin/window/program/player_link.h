@@ -53,9 +53,9 @@ class PlayerLink {
   void pause(std::chrono::milliseconds duration);
 
   /// Whether the player has closed the window, or is gone.
-  bool is_over() const { return is_closed_ || is_not_understood_ || channel_->is_gone(); }
+  bool is_over() const { return is_closed_ || is_incompatible_ || channel_->is_gone(); }
   /// Whether the player sends something other than messages, as one of another version does.
-  bool is_not_understood() const { return is_not_understood_ || channel_->is_not_understood(); }
+  bool is_incompatible() const { return is_incompatible_ || channel_->is_incompatible(); }
 
   const ElementState& state() const { return state_; }
   std::vector<ForceTick> take_ticks() { return std::exchange(ticks_, {}); }
@@ -95,7 +95,7 @@ class PlayerLink {
   std::optional<Eigen::Vector3d> led_to_m_;
   bool is_answered_ = false;
   bool is_closed_ = false;
-  bool is_not_understood_ = false;
+  bool is_incompatible_ = false;
 };
 
 }  // namespace spidar::window

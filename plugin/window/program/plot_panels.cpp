@@ -39,7 +39,7 @@ std::vector<PlotSpan> spans(const std::vector<ForceColumn>& columns, Eigen::Inde
 }
 
 /// Shows, beside the mouse, the largest delivered force in this pixel's width.
-void tell_force(double at_s, const ForceColumn& column) {
+void show_force_tooltip(double at_s, const ForceColumn& column) {
   if (column.is_empty) return;
   std::string text = formatted("%.2f s: %.2f N", at_s, column.most_N);
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
@@ -109,7 +109,7 @@ void draw_force(const Brush& brush, const Rect& panel, const Timeline& timeline)
   if (const std::optional<double> at_s = plot.hovered_x()) {
     const double fraction = 1 + *at_s / timeline.plotted_s();
     const auto column = static_cast<size_t>(fraction * static_cast<double>(columns.size()));
-    if (column < columns.size()) tell_force(*at_s, columns[column]);
+    if (column < columns.size()) show_force_tooltip(*at_s, columns[column]);
   }
   plot.legend({{kAxisNames[0], kAxisColors[0]},
                {kAxisNames[1], kAxisColors[1]},
@@ -137,7 +137,7 @@ void draw_speed(const Brush& brush, const Rect& panel, const Timeline& timeline)
 }
 
 void draw_gain(const Brush& brush, const Rect& panel, const Timeline& timeline,
-               const ControllerSettings& controller, const TwoSettings& settings) {
+               const ControllerSettings& controller, const SettingsComparison& settings) {
   const Rect content = draw_panel(brush, panel, "Speed to force");
   const double highest_px_s = highest_speed_px_s(timeline);
   const ControllerSettings other = with_values(controller, settings.other());

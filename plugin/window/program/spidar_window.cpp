@@ -21,9 +21,9 @@ namespace {
 using std::chrono::milliseconds;
 
 /// A player may be stopped in a debugger; the window continues to draw.
-constexpr milliseconds kPatience{100};
+constexpr milliseconds kFrameTimeout{100};
 /// For the first answer, without which the window has no name.
-constexpr milliseconds kFirstPatience{5000};
+constexpr milliseconds kFirstFrameTimeout{5000};
 constexpr int kFallbackRate_Hz = 60;
 
 std::chrono::steady_clock::duration screen_period() {
@@ -47,7 +47,7 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
     for (const UserInput& input : link.take_inputs()) window.process(input);
     // This comes after the last request, so that the picture contains everything sent before.
     const std::optional<std::string> picture = link.wanted_picture();
-    if (!picture) link.request_frame(kPatience);
+    if (!picture) link.request_frame(kFrameTimeout);
     window.draw();
     if (picture) link.picture_taken(window.save(*picture));
     window.present();
@@ -60,8 +60,8 @@ void draw_until_closed(DebugWindow& window, PlayerLink& link) {
 
 /// Returns the status of the program. The player reports errors on its bus.
 int show(PlayerLink& link) {
-  link.request_frame(kFirstPatience);
-  if (link.is_over()) return link.is_not_understood() ? EXIT_FAILURE : EXIT_SUCCESS;
+  link.request_frame(kFirstFrameTimeout);
+  if (link.is_over()) return link.is_incompatible() ? EXIT_FAILURE : EXIT_SUCCESS;
   if (!glfwInit()) {
     link.cannot_open("The debug window cannot be opened: " + glfw_error() +
                          ". Is DISPLAY or WAYLAND_DISPLAY right?",

@@ -27,7 +27,7 @@ std::vector<Eigen::Vector2d> profile(const Timeline& timeline, size_t parts) {
 }
 
 /// Shows the largest force beside the mouse.
-void tell_force(const Plot& plot, const std::vector<Eigen::Vector2d>& force) {
+void show_force_tooltip(const Plot& plot, const std::vector<Eigen::Vector2d>& force) {
   const double x_px = ImGui::GetMousePos().x;
   const auto after = std::find_if(force.begin(), force.end(), [&](const Eigen::Vector2d& point) {
     return plot.at(point.x(), 0).x >= x_px;
@@ -132,7 +132,7 @@ TimelineActions draw_timeline(const Brush& brush, const Rect& panel, const Timel
   }
   ImGui::SetCursorScreenPos(upper_left(plot.area()));
   ImGui::InvisibleButton("force", im(plot.area().width, std::max(plot.area().height, 1.0)));
-  if (ImGui::IsItemHovered()) tell_force(plot, force);
+  if (ImGui::IsItemHovered()) show_force_tooltip(plot, force);
   if (strip.length_ns > 0) use_strip(brush, film, strip, actions);
   ImGui::End();
   return actions;

@@ -112,7 +112,7 @@ void Channel::fill() {
       std::memcpy(files.data(), CMSG_DATA(part), count * sizeof(int));
       files_.insert(files_.end(), files.begin(), files.begin() + static_cast<ptrdiff_t>(count));
     }
-    if (files_.size() > limits_.files) misunderstand();
+    if (files_.size() > limits_.files) mark_incompatible();
   }
 }
 
@@ -122,7 +122,7 @@ std::optional<std::vector<uint8_t>> Channel::next() {
   if (received_.size() - taken_ < sizeof header) return std::nullopt;
   std::memcpy(&header, received_.data() + taken_, sizeof header);
   if (header.magic != own.magic || header.version != own.version || header.bytes > limits_.bytes) {
-    misunderstand();
+    mark_incompatible();
     return std::nullopt;
   }
   if (received_.size() - taken_ - sizeof header < header.bytes) return std::nullopt;

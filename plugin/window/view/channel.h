@@ -45,7 +45,7 @@ class Channel {
   /// Whether the other end is closed or broken. Earlier packets can still be taken.
   bool is_gone() const { return is_gone_; }
   /// Whether the other end sends something other than packets of this version of the protocol.
-  bool is_not_understood() const { return is_not_understood_; }
+  bool is_incompatible() const { return is_incompatible_; }
   int socket() const { return socket_; }
 
  private:
@@ -55,7 +55,7 @@ class Channel {
     int file = -1;
   };
   bool send_some(Unsent& packet);
-  void misunderstand() { is_gone_ = is_not_understood_ = true; }
+  void mark_incompatible() { is_gone_ = is_incompatible_ = true; }
 
   const int socket_;
   const Limits limits_;
@@ -64,7 +64,7 @@ class Channel {
   size_t taken_ = 0;  ///< bytes of received_ that next() has returned
   std::deque<int> files_;
   bool is_gone_ = false;
-  bool is_not_understood_ = false;
+  bool is_incompatible_ = false;
 };
 
 }  // namespace spidar::window

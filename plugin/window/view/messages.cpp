@@ -77,7 +77,7 @@ struct Members {
   static auto of(Mouse& m) { return std::tie(m.at_px, m.down, m.shift, m.wheel, m.taken); }
   static auto of(UserInput& i) { return std::tie(i.key, i.mouse, i.size_px); }
   static auto of(Close&) { return std::tie(); }
-  static auto of(Ask&) { return std::tie(); }
+  static auto of(RequestFrames&) { return std::tie(); }
   static auto of(SlotFree& s) { return std::tie(s.memory, s.slot); }
   static auto of(ChangeSetting& c) { return std::tie(c.name, c.value); }
   static auto of(LoadPreset& p) { return std::tie(p.name); }

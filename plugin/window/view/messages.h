@@ -2,9 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 /// The messages between a player and its window.
 ///
-/// The window requests what it draws next (Ask). The player answers with the frames that have
-/// passed since, and then with the state of the element (ElementState). A slow window therefore
-/// gets less, and nothing waits for it.
+/// The window requests what it draws next (RequestFrames). The player answers with the frames that
+/// have passed since, and then with the state of the element (ElementState). A slow window
+/// therefore gets less, and nothing waits for it.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,7 @@ struct UserInput {
   std::optional<Mouse> mouse;
   std::optional<Eigen::Vector2d> size_px;
 };
-/// The window must close, and has Window::kPatience for that.
+/// The window must close, and has Window::kCloseTimeout for that.
 struct Close {};
 
 using ToWindow = std::variant<PictureMemory, FrameShown, ElementState, ChoicesSaved, TakePicture,
@@ -64,7 +64,7 @@ using ToWindow = std::variant<PictureMemory, FrameShown, ElementState, ChoicesSa
 
 // --- from the window
 
-struct Ask {};
+struct RequestFrames {};
 struct SlotFree {
   uint32_t memory = 0, slot = 0;
 };
@@ -104,8 +104,9 @@ struct CannotOpen {
   std::string what, advice;
 };
 
-using FromWindow = std::variant<Ask, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
-                                PlayFilm, SeekFilm, PictureTaken, CannotOpen, LoadPreset>;
+using FromWindow =
+    std::variant<RequestFrames, SlotFree, ChangeSetting, LeadHand, ChooseObject, SaveChoices,
+                 PlayFilm, SeekFilm, PictureTaken, CannotOpen, LoadPreset>;
 
 /// The bytes of a message, which begin with its kind.
 std::vector<uint8_t> to_bytes(const ToWindow& message);

@@ -63,14 +63,14 @@ bool PictureSlots::fits(const GstVideoFrame& frame) const {
   return gst_video_info_is_equal(&plain, &info_);
 }
 
-std::optional<uint32_t> PictureSlots::take() {
+std::optional<uint32_t> PictureSlots::acquire() {
   const auto free = std::find(taken_.begin(), taken_.end(), false);
   if (free == taken_.end()) return std::nullopt;
   *free = true;
   return static_cast<uint32_t>(free - taken_.begin());
 }
 
-void PictureSlots::give_back(uint32_t slot) {
+void PictureSlots::release(uint32_t slot) {
   if (slot < kSlots) taken_[slot] = false;
 }
 

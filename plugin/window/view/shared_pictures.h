@@ -36,8 +36,8 @@ class PictureSlots {
   int file() const { return file_; }
 
   /// Takes a free slot and returns its number; nothing when there is none.
-  std::optional<uint32_t> take();
-  void give_back(uint32_t slot);
+  std::optional<uint32_t> acquire();
+  void release(uint32_t slot);
   /// Copies into a taken slot. Returns false when the frame cannot be read. Any thread.
   bool copy(const GstVideoFrame& frame, uint32_t slot) const;
 

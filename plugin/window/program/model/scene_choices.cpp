@@ -92,7 +92,7 @@ bool SceneChoices::end_scene() {
 }
 
 /// Takes choices back. A saved one remains as an edit that removes its rule from the file.
-void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
+void SceneChoices::undo_where(const std::function<bool(const Choice&)>& which) {
   for (Choice& choice : choices_) {
     if (!choice.grows || !which(choice)) continue;
     choice.grows = choice.is_saved = false;
@@ -107,7 +107,7 @@ void SceneChoices::take_back(const std::function<bool(const Choice&)>& which) {
 void SceneChoices::choose(const SeenObject& object) {
   if (place_.stamp.stream_ns < 0 || object.first_ns < 0) return;
   const int64_t from_ns = whole(object.first_ns);
-  take_back([&](const Choice& other) { return other.seen_ns > object.first_ns; });
+  undo_where([&](const Choice& other) { return other.seen_ns > object.first_ns; });
   for (Choice& other : choices_) {
     if (!other.grows) continue;  // otherwise the object came after this one had gone
     other.grows = other.is_saved = false;
@@ -123,11 +123,11 @@ void SceneChoices::choose(const SeenObject& object) {
 }
 
 void SceneChoices::undo_last() {
-  take_back([](const Choice&) { return true; });
+  undo_where([](const Choice&) { return true; });
 }
 
 void SceneChoices::remove(int64_t from_ns, int64_t to_ns) {
-  take_back([&](const Choice& choice) {
+  undo_where([&](const Choice& choice) {
     return choice.edit.from_ns < to_ns && choice.edit.to_ns > from_ns;
   });
   Choice choice;

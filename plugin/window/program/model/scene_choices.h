@@ -98,7 +98,7 @@ class SceneChoices {
     bool was_saved = false;  ///< with an earlier end
   };
   void follow(Choice& choice, const DrawnFrame& report);
-  void take_back(const std::function<bool(const Choice&)>& which);
+  void undo_where(const std::function<bool(const Choice&)>& which);
 
   std::vector<Choice> choices_;
   ScenePlace place_;

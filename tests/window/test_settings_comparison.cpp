@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // Two settings side by side in the debug window.
-#include "plugin/window/program/model/two_settings.h"
+#include "plugin/window/program/model/settings_comparison.h"
 #include "tests/support/test.h"
 
-namespace spidar::test::two_settings_test {
+namespace spidar::test::settings_comparison_test {
 namespace {
 
 using Changes = std::vector<std::pair<std::string, double>>;
@@ -20,8 +20,8 @@ std::vector<window::Setting> settings_of(double alpha, double max_force_N, doubl
   return settings;
 }
 
-TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
-  window::TwoSettings two;
+TEST(SettingsComparison, EachKeepsWhatIsChangedWhileItIsInUse) {
+  window::SettingsComparison two;
   two.update(settings_of(0.01, 3));
   EXPECT_TRUE(two.are_same());
   EXPECT_TRUE(two.use(1).empty()) << "the second one begins as the first";
@@ -35,8 +35,8 @@ TEST(TwoSettings, EachKeepsWhatIsChangedWhileItIsInUse) {
 }
 
 // The element answers some time after it was asked.
-TEST(TwoSettings, AnAnswerFromBeforeChangesNothing) {
-  window::TwoSettings two;
+TEST(SettingsComparison, AnAnswerFromBeforeChangesNothing) {
+  window::SettingsComparison two;
   two.update(settings_of(0.01, 3));
   two.use(1);
   two.update(settings_of(0.02, 3));
@@ -49,34 +49,35 @@ TEST(TwoSettings, AnAnswerFromBeforeChangesNothing) {
   EXPECT_EQ(two.use(0), (Changes{{"alpha", 0.01}}));
 }
 
-TEST(TwoSettings, WhatTheElementRefusesHoldsNothingUp) {
-  window::TwoSettings two;
+TEST(SettingsComparison, WhatTheElementRefusesHoldsNothingUp) {
+  window::SettingsComparison two;
   two.update(settings_of(0.01, 3));
   two.use(1);
   two.update(settings_of(0.02, 3));
   two.use(0);
-  for (int i = 0; i <= window::TwoSettings::kPatience; ++i) two.update(settings_of(0.02, 3));
+  for (int i = 0; i <= window::SettingsComparison::kMaxAnswers; ++i)
+    two.update(settings_of(0.02, 3));
   two.update(settings_of(0.03, 3));
   EXPECT_EQ(two.use(1), (Changes{{"alpha", 0.02}}));
   EXPECT_EQ(two.other().at("alpha"), 0.03);
 }
 
-TEST(TwoSettings, StoppingTheForceIsPartOfNeither) {
-  window::TwoSettings two;
+TEST(SettingsComparison, StoppingTheForceIsPartOfNeither) {
+  window::SettingsComparison two;
   two.update(settings_of(0.01, 3));
   two.update(settings_of(0.01, 3, 1));
   EXPECT_TRUE(two.are_same());
   EXPECT_TRUE(two.use(1).empty());
 }
 
-TEST(TwoSettings, AResetGivesBackWhatWasSeenFirst) {
-  window::TwoSettings two;
+TEST(SettingsComparison, AResetGivesBackWhatWasSeenFirst) {
+  window::SettingsComparison two;
   two.update(settings_of(0.01, 3));
   two.update(settings_of(0.05, 1));
   EXPECT_EQ(two.reset(), (Changes{{"alpha", 0.01}, {"max-force", 3}}));
 }
 
-TEST(TwoSettings, ControllerIsThatOfTheValues) {
+TEST(SettingsComparison, ControllerIsThatOfTheValues) {
   const ControllerSettings controller = window::with_values(
       {ControlLaw::kLinear, 3, 0.01},
       {{"controller", static_cast<double>(ControlLaw::kAdaptive)}, {"max-force", 2}});
@@ -86,4 +87,4 @@ TEST(TwoSettings, ControllerIsThatOfTheValues) {
 }
 
 }  // namespace
-}  // namespace spidar::test::two_settings_test
+}  // namespace spidar::test::settings_comparison_test

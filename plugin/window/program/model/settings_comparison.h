@@ -16,15 +16,15 @@ namespace spidar::window {
 
 /// Two settings of the element to compare, of which one is in use. Both begin as those of the
 /// element; then each stores the changes while it is in use, except for the stop of the force.
-class TwoSettings {
+class SettingsComparison {
  public:
   /// The element has refused a change that is still missing after this many of its answers: earlier
   /// answers may have been on their way when the change was requested.
-  static constexpr int kPatience = 30;
+  static constexpr int kMaxAnswers = 30;
 
   /// Takes the present settings of the element.
   void update(const std::vector<Setting>& settings) {
-    if (!asked_.empty() && ++answers_ > kPatience) asked_.clear();
+    if (!asked_.empty() && ++answers_ > kMaxAnswers) asked_.clear();
     for (const Setting& setting : settings) {
       if (setting.name == "mute") continue;
       const auto [seen, is_new] = seen_.emplace(setting.name, setting.value);
