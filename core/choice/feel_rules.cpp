@@ -103,7 +103,7 @@ class RuleParser {
     skip_space();
     return true;
   }
-  /// Takes all words up to the next one that begins with a letter, and joins them without spaces.
+  /// Accepts all words up to the next one that begins with a letter, and joins them without spaces.
   std::string accept_numbers() {
     std::string numbers;
     while (!text_.empty() && !is_letter(text_.front())) {

@@ -86,8 +86,9 @@ struct FeelEdit {
 };
 
 /// Applies `edit` to `rules`, which are sorted by time, and returns the sorted result. Overlapping
-/// rules are cut to make room. Of a kObjectAt rule, the part after the edit is dropped too, because
-/// the object may then be elsewhere. An edit that does not end after it begins changes nothing.
+/// rules are shortened or split. Of a kObjectAt rule, the part after the edit is dropped too,
+/// because the object may then be elsewhere. An edit whose end is not after its begin changes
+/// nothing.
 inline std::vector<FeelRule> edited(const std::vector<FeelRule>& rules, const FeelEdit& edit) {
   if (edit.to_ns <= edit.from_ns) return rules;
   std::vector<FeelRule> result;

@@ -9,7 +9,8 @@
 namespace spidar {
 namespace {
 
-/// After a loss, the same object has its former velocity, to this fraction of the larger speed.
+/// An object that is found after a loss may be the lost one if its velocity differs from the former
+/// one by less than this fraction of the larger speed.
 constexpr double kSameVelocity = 0.5;
 
 /// How well an object meets the rule. An object whose score is higher by 1 replaces another.
@@ -104,8 +105,9 @@ bool FollowedObject::may_be(const MovingObject& object) const {
   return (object.relative_px_s - velocity_px_s_).norm() < kSameVelocity * faster_px_s;
 }
 
-/// Returns the candidate whose box is nearest to the position, and the smallest of several; null if
-/// none is within reach. In kSearching, boxes are moved back in time to where they were at begin().
+/// Returns the candidate whose box is nearest to the position, the smallest one if several boxes
+/// are equally near; null if none is within reach. In kSearching, boxes are moved back in time to
+/// where they were at begin().
 const MovingObject* FollowedObject::at_position(const std::vector<MovingObject>& objects,
                                                 double reach_px) const {
   const MovingObject* best = nullptr;

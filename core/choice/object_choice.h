@@ -75,15 +75,16 @@ struct ChoiceInput {
   }
 };
 
-/// Finds the object in a box: the box tells which object, and the object how it moves. A detector
-/// misses objects in some frames, so the object is kept for a moment without a box. The largest of
-/// several objects in boxes is taken; it stays for as long as there is a box around it.
+/// Finds the object in a box: the box shows which object is meant, and ObjectTracker measures how
+/// the object moves. A detector misses objects in some frames, so the object is kept for a moment
+/// without a box. Of several objects in boxes, the largest is chosen, and remains chosen as long as
+/// there is a box around it.
 class BoxedObject {
  public:
   /// Uses the boxes of this name; empty: any box. `name` must stay valid until the next begin().
   void begin(const char* name);
 
-  /// Takes the next frame. Returns the object as it is in `frame`; null when none is known.
+  /// Adds the next frame. Returns the object as it is in `frame`; null when none is known.
   const MovingObject* update(const ChoiceInput& frame);
 
   /// Call this after a cut, when all objects have new ids.
@@ -115,16 +116,17 @@ class BoxedObject {
 };
 
 /// Finds the object that is at a position, and follows its id. ObjectTracker drops an object that
-/// has rested for a while. Where there is no object, or where the followed one came to rest, the
-/// first object that begins to move there is taken. At an apparent cut, ObjectTracker gives new
-/// ids: an object that soon moves in the same way at the expected place counts as the followed one.
+/// has rested for a while. If there is no object at the position, or the followed one came to rest
+/// there, the first object that begins to move there is followed. At an apparent cut, ObjectTracker
+/// gives new ids; an object that soon moves in the same way at the expected place counts as the
+/// followed one.
 class FollowedObject {
  public:
   enum class State {
     kSearching,  ///< searches for the object at the position
-    kWaiting,    ///< no object is there: waits for the first motion there
+    kWaiting,    ///< no object is at the position: waits for the first motion there
     kFollowed,   ///< visible, or hidden for a moment
-    kResting,    ///< where it was last seen
+    kResting,    ///< at rest where it was last seen
     kLost,       ///< its position is unknown
   };
 
@@ -132,7 +134,7 @@ class FollowedObject {
   /// frame, `since_s` before the frame of the next update().
   void begin(const Eigen::Vector2d& position_px, double since_s);
 
-  /// Takes the next frame. Returns the object as it is in `objects`; null when it is not among
+  /// Adds the next frame. Returns the object as it is in `objects`; null when it is not among
   /// them. `interval_s` is the time since the previous frame, and `background` the motion of the
   /// background in it.
   const MovingObject* update(const std::vector<MovingObject>& objects, int frame_height,
@@ -171,8 +173,8 @@ class FollowedObject {
   size_t before_count_ = 0;
 };
 
-/// Chooses what is felt of a frame: by rules, by boxes from outside, or by a click. Takes the
-/// frames in the order of display. Allocates nothing.
+/// Chooses what is felt of a frame: by rules, by boxes from outside, or by a click. Call choose()
+/// for the frames in the order of display. Allocates nothing.
 class ObjectChoice {
  public:
   /// If the rule of the last frame is also one of the new rules, it keeps its object.

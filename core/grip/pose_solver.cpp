@@ -14,24 +14,27 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A hand does not reach 1000 m/s², so at 1 kHz the grip is within half a millimetre of the pose
-// that its motion predicts. A pose further off may mean a fault of a string that does not show in
-// the residual. A string counts as faulty if the pose without it is this much nearer.
+// that its motion predicts. A pose further away may be due to a faulty string that the residual
+// does not reveal. A string counts as faulty if the pose without it is this much nearer.
 constexpr double kImplausible_m = 1e-3;
 constexpr double kMuchNearer = 0.25;
-// The faulty string is certain only if leaving out any other one fits worse by this factor.
+// A string is certainly the faulty one only if leaving out any other string increases the residual
+// by this factor.
 constexpr double kUnambiguous = 3;
-// Seven strings predict the length of the eighth. Each of them is off by some third of the largest
-// residual; in bad poses these errors have the same direction.
+// Seven strings predict the length of the eighth. The length of each of the seven has an error of
+// about a third of the largest residual, and in bad poses these errors have the same direction. So
+// a correct prediction may be off by this many largest residuals.
 constexpr double kMisfit = 3;
 // A string is frozen if it stands still while two others have moved by kMissed largest residuals
-// (about encoder steps), although it should have moved too. A slowly growing fault has spoilt the
-// expected pose before it is noticed, so the distance for a frozen string is reduced by the motion
-// of the others, but by kForgiven largest residuals at most.
+// (about encoder steps), although it should have moved too. A fault that grows slowly has already
+// shifted the expected pose when it is noticed. The distance of the pose without a frozen string is
+// therefore reduced by the motion of the others, by kForgiven largest residuals at most.
 constexpr double kMissed = 2;
 constexpr double kForgiven = 10;
-// A string that stands still while two others move by kStill largest residuals may be dead. Strings
-// do stand still for a moment, where the grip turns round or moves across them, but then the others
-// predict that length to within kElsewhere; and three at once do not stand still for long.
+// A string that stands still while two others move by kStill largest residuals may have a dead
+// encoder. An intact string also stands still for a moment when the grip turns back or moves across
+// the string. But then the others predict its length to within kElsewhere largest residuals, and
+// three strings never stand still together for long.
 constexpr double kStill = 60;
 constexpr double kLongStill = 200;
 constexpr double kElsewhere = 12;
@@ -40,9 +43,10 @@ constexpr int kRounds = 4;
 // The weight of the residual of seven strings relative to the distance: the residual has one degree
 // of freedom and the distance six, some of them weakly determined.
 constexpr double kResidualWeight = 8;
-// A dead encoder fits by chance when the grip passes through; a repaired string continues to fit. A
-// string that has moved this far, some three hundred encoder steps, and fitted on the whole way, is
-// not dead. Leaving it out for longer is dangerous: the other strings may not be able to brake.
+// The count of a dead encoder fits by chance while the grip passes the position at which the
+// encoder stopped; that of a repaired one continues to fit. An encoder that has moved this far,
+// some three hundred steps, and fitted all the way is not dead. To leave its string out for longer
+// would be dangerous, because the other strings may not be able to brake the grip.
 constexpr int kTicksToTrust = 100;
 constexpr double kMovedToTrust_m = 5e-3;
 
@@ -123,8 +127,8 @@ double PoseSolver::residual_m(const StringVector& lengths_m, const Pose& pose,
 
 // Seven strings have one redundant length, so whichever string is left out, the others fit more or
 // less. The faulty string is the one without which the pose is nearest to the expected one, in
-// metres; the residual of the seven counts too, and a count that stands still while the others move
-// makes its string the likelier one.
+// metres. The residual of the seven counts as well, and a string whose count stands still while the
+// others move is more likely to be the faulty one.
 double PoseSolver::implausibility_m(const StringVector& lengths_m, const Pose& expected,
                                     const PoseFit& fit, int left_out) const noexcept {
   const double distance_m = fitter_.twist(expected, fit.pose).norm();
@@ -156,7 +160,7 @@ PoseResult PoseSolver::track_without_one(const StringVector& lengths_m,
   return result;
 }
 
-// Without an expected pose, only the residual can tell which string is faulty.
+// Without an expected pose, only the residual shows which string is faulty.
 PoseResult PoseSolver::locate_without_one(const StringVector& lengths_m,
                                           const Pose& start) const noexcept {
   PoseResult result = rejected(PoseStatus::kNotConverged);
@@ -209,8 +213,9 @@ PoseResult PoseSolver::accepted(const PoseResult& result) noexcept {
   return result;
 }
 
-// Uses a string again when its length has fitted the pose for some time and has moved meanwhile, or
-// has fitted for a long way: a dead encoder's count fits as long as the grip stands still.
+// Returns the faulty string, or −1 once the string can be used again: when its length has fitted
+// the pose for some time and has changed meanwhile, or has fitted while it changed a lot. The time
+// alone proves nothing, because the count of a dead encoder fits as long as the grip stands still.
 int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& result) noexcept {
   const int i = result.faulty_string;
   const bool fitting = i >= 0 && i == faulty_string_ &&
@@ -226,8 +231,8 @@ int PoseSolver::still_faulty(const StringVector& lengths_m, const PoseResult& re
 
 // Two dead encoders may drag the pose along, because seven strings of which one is dead still fit
 // closely in many positions. A string counts as dead when it has stood still while the others have
-// moved, and the pose of the others gives it another length. With a second string left out, six
-// strings remain, which fit any lengths: no pose can be trusted.
+// moved, and the pose of the others predicts another length for it. If a second string is left out,
+// the six that remain fit any lengths, so that no pose can be trusted.
 bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseResult& result,
                                     bool tracked) const noexcept {
   int out = result.faulty_string >= 0, one = -1, other = result.faulty_string;
@@ -254,8 +259,8 @@ bool PoseSolver::hides_dead_encoder(const StringVector& lengths_m, const PoseRes
 }
 
 // Finds the pose next to the expected one, without the string that is known to be faulty. Near the
-// walls of the frame, where the strings hardly determine one coordinate, steps stay long although
-// the lengths fit: a pose within the reach of a hand is accepted.
+// walls of the frame, the strings hardly determine one coordinate, and the steps of the fit stay
+// long although the lengths fit. There, any pose is accepted that a hand can have reached.
 PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expected) const noexcept {
   PoseFit fit = fitter_.gauss_newton(lengths_m, expected, faulty_string_);
   if (!fit.converged) {
@@ -269,9 +274,10 @@ PoseResult PoseSolver::follow(const StringVector& lengths_m, const Pose& expecte
           status == PoseStatus::kSolved ? faulty_string_ : -1, status};
 }
 
-// If no pose was found, or one further from the expected pose than a hand can move the grip,
-// returns the pose without one string instead, if it exists, is much nearer, and gives that string
-// another length. Near the walls, poses with almost the same lengths lie apart.
+// Returns the pose without one string in place of `found` if `found` is no pose, or is further from
+// the expected pose than a hand can move the grip. The pose without the string must be much nearer
+// and predict another length for that string: near the walls, poses that are far apart have almost
+// the same lengths.
 PoseResult PoseSolver::unless_implausible(const StringVector& lengths_m, const Pose& expected,
                                           const PoseResult& found) const noexcept {
   const bool solved = found.status == PoseStatus::kSolved;

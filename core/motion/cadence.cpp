@@ -13,12 +13,13 @@ namespace {
 
 /// Intervals that differ by less than this fraction count as equal: rounding and jitter of a clock.
 constexpr double kSameInterval = 0.2;
-/// A single different interval among this many is an outlier. In a cadence, at least one interval
-/// in five differs, as with 25 pictures a second in 30 frames. (With 24 in 25, one in 24 differs,
-/// and without it the interval is only 4 % too short.)
+/// A single different interval among this many is an outlier, not part of a cadence. In a cadence,
+/// at least one interval in five differs, as with 25 pictures a second in 30 frames. (With 24
+/// pictures in 25 frames, one interval in 24 differs; to ignore that one makes the result only 4 %
+/// too short.)
 constexpr size_t kOutlierIn = 2 * 5;
-/// Fewer pictures do not show a cadence: two periods of the shortest one, in which two pictures are
-/// shown for different times.
+/// Fewer pictures do not show a cadence. In the shortest cadence, two pictures are shown for
+/// different times; kMinPictures are two of its periods.
 constexpr size_t kMinPictures = 2 * 2;
 /// Fewer intervals have no majority from which one could differ.
 constexpr size_t kMinMajority = 3;
@@ -44,8 +45,8 @@ void Cadence::add_interval(const Shown& shown) {
   shown_.add(shown);
 }
 
-/// Joins intervals that were split because the first repetitions in a coded film passed for new
-/// pictures.
+/// Merges intervals that were split because the first repeated pictures of a coded film were taken
+/// for new ones.
 void Cadence::merge_split_intervals(const RepeatedPicture::Repeats& repeats) {
   const History<Shown, kPictures> pieces = shown_;
   shown_.clear();
@@ -98,9 +99,10 @@ bool Cadence::is_alike_but_for_one(int64_t interval_ns) const {
   return shown_.size() >= kMinMajority && unlike <= 1;
 }
 
-/// Interval of the latest `pictures` if they were taken at even intervals and each is first shown
-/// by the next frame: the slope of the line through the times at which they were first shown. 0
-/// when one of them is further from the line than a frame.
+/// The interval of the latest `pictures`, provided that they were taken at even intervals and that
+/// each is first shown by the frame that follows it: the slope of the line through the times at
+/// which the pictures were first shown. 0 when one of these times is further from the line than a
+/// frame.
 double Cadence::even_interval_ns(size_t pictures) const {
   std::array<double, kPictures + 1> first_shown_ns{};
   double frames = 0;
@@ -120,8 +122,8 @@ double Cadence::even_interval_ns(size_t pictures) const {
   return latest_ns - earliest_ns <= (1 + kSameInterval) * frame_ns ? slope_ns : 0;
 }
 
-/// The time between two pictures in the cadence of as many of the latest ones as share one; 0 if
-/// there is none.
+/// The time between two pictures in the cadence that as many as possible of the latest pictures
+/// share; 0 if they share none.
 int64_t Cadence::cadence_ns() const {
   if (!has_repeats()) return 0;
   // The interval that may differ can be a rest, after which the picture moves again.

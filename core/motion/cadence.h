@@ -12,14 +12,13 @@ namespace spidar {
 
 /// Finds the cadence with which a film shows new pictures. A moving film can repeat pictures: 24
 /// pictures a second in 60 frames, a cartoon drawn on twos, a late frame that was shown twice. The
-/// motion is the displacement between two different pictures, divided by the time
-/// between them.
+/// motion is the displacement between two different pictures, divided by the time between them.
 ///
 /// That time differs from the time between their first frames when pictures taken at even
 /// intervals are shown at another frame rate: 24 pictures a second in 60 frames are shown for three
-/// and two frames in turn (3:2 pulldown). This class estimates the true interval
-/// from the latest ones. It also decides how long a repeated picture still counts as moving, and
-/// when it counts as at rest.
+/// and two frames in turn (3:2 pulldown). This class estimates the true interval from the latest
+/// ones. It also decides how long a repeated picture still counts as moving, and when the picture
+/// counts as at rest.
 class Cadence {
  public:
   /// A picture that has been shown for this long is at rest, unless longer intervals have been

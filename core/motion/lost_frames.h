@@ -8,9 +8,9 @@
 namespace spidar {
 
 /// Distinguishes a lost frame from a repeated picture. A frame may have been repeated because the
-/// one after it was lost: the film has then moved on in the meantime, and the interval between the
-/// frames is right, not that of the cadence. The speed decides: with the right interval, it is
-/// close to the previous speed.
+/// next one was lost. The film has then moved on in the meantime, so that the interval between the
+/// frames is right, not that of the cadence. The right interval is the one with which the speed is
+/// closer to the previous speed.
 class LostFrames {
  public:
   /// Returns a factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1,
@@ -32,8 +32,8 @@ class LostFrames {
   void reset() { last_px_s_ = 0; }
 
  private:
-  /// The other speed must be closer by more than this fraction. A judgement, not derived: where
-  /// both are about as close, noise would decide.
+  /// The other speed must be closer by more than this fraction, because noise would decide between
+  /// two speeds that are about equally close. The value is a judgement; it is not derived.
   static constexpr double kCloserBy = 0.2;
 
   double last_px_s_ = 0;  ///< the previous speed, corrected

@@ -23,7 +23,7 @@ struct MeasuredFrame {
   FilmPlace place;
   int64_t interval_ns = 0;   ///< the time in which the motion happened, see Cadence; 0 with kFirst
   int64_t shown_for_ns = 0;  ///< see Cadence::Step
-  int features = 0;          ///< points to look for in the next frame
+  int features = 0;          ///< points to track into the next frame
   /// Blocks that show how they move, or with motion=mean the points; empty with kFirst.
   std::vector<FollowedPoint> points;
   /// Zero unless motion=mean, with which all members below are empty.

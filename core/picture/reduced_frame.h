@@ -13,9 +13,10 @@ namespace spidar {
 /// Reduces each frame once, for all measurements of motion.
 class ReducedFrame {
  public:
-  /// Returns picture(). A frame that repeats the previous picture is skipped: the next one is
-  /// compared with that picture. With `may_wait`, so is one that is equal within the noise of
-  /// coding. Throws as require_usable() does.
+  /// Reduces `frame` and returns picture(). Skips a frame that repeats the previous picture, so
+  /// that the next frame is compared with that picture. With `may_wait`, a frame that differs from
+  /// the previous picture only by the noise of coding is skipped, too. Throws as require_usable()
+  /// does.
   FrameComparison read(const ImageView& frame, bool may_wait = false) {
     require_usable(frame);
     const bool is_comparable = frame.width == width_ && frame.height == height_;
@@ -47,7 +48,7 @@ class ReducedFrame {
   /// Which of the latest frames repeated a picture, as far as known.
   RepeatedPicture::Repeats repeats() const { return repeated_picture_.repeats(); }
 
-  /// Tells that this frame was the first one after a cut.
+  /// Call this for the first frame after a cut.
   void cut() { repeated_picture_.cut(); }
   void reset() { width_ = 0; }
 

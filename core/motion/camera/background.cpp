@@ -120,10 +120,10 @@ void BackgroundEstimator::remove_connected_to(const Eigen::Vector2d& middle_px,
 }
 
 /// Whether positions_px_, which this function empties, belong to more than one object in front of a
-/// plain background, or to more than two if the model is more general than a translation. This is
-/// so when kMinVotes are left after the objects have been removed: circles that cover kMaxObject of
-/// the picture, each around a position with the most others in it; and, if all of them move alike,
-/// the positions that are connected to that position.
+/// plain background, or to more than two if the model is more general than a translation. That is
+/// the case when kMinVotes are left after the objects have been removed. An object is a circle that
+/// covers kMaxObject of the picture, around the position with which the circle contains the most
+/// others. If all positions move alike, those connected to that position are removed as well.
 bool BackgroundEstimator::is_background(ModelKind kind, bool move_alike,
                                         const Eigen::Vector2d& size_px) {
   const int objects = kind > ModelKind::kTranslation ? 2 : 1;
@@ -171,9 +171,10 @@ bool BackgroundEstimator::covers(Scored& scored, const BackgroundVotes& votes) {
   return false;
 }
 
-/// Whether the chosen model is the camera's: more of the votes agree than an object has, or all
-/// others may be those of objects in front of a plain background, unless most of the picture is
-/// new. Votes of objects move alike: they are left out, so as not to count as several objects.
+/// Whether the chosen model is the camera's. It is if more of the votes agree with it than an
+/// object can have, or if all other votes may be those of objects in front of a plain background,
+/// unless most of the picture is new. Votes that move alike belong to one object and must not count
+/// as several, so they are left out.
 bool BackgroundEstimator::is_proven(const Scored& chosen, const BackgroundVotes& votes) {
   if (chosen.coverage * votes.all >= kMaxObject * voting_) return true;
   if (votes.with_edges || voting_ < kMaxObject * votes.all) return !votes.are_lost;
@@ -240,11 +241,11 @@ void BackgroundEstimator::find_simpler(const MotionModel& start, const Backgroun
   current = best;
 }
 
-/// Learns the noise as a median, because some moving objects may not have been recognised yet.
-/// Where few votes agree with the model, the picture is plain, or so blurred that the model is
-/// wrong; the noise is then assumed to be that of good pictures. A model of rest with which few
-/// blocks agree is noise, if most of the picture has texture. Where the camera's motion is unknown,
-/// so is the noise.
+/// Learns the noise as a median, because some moving objects may not have been recognised yet. If
+/// few votes agree with the model, the picture is plain, or so blurred that the model is wrong; the
+/// noise is then assumed to be that of good pictures. But if that model is rest and most of the
+/// picture has texture, it is the noise that makes the votes disagree, and the noise is measured.
+/// Nothing is learnt while the camera's motion is unknown.
 void BackgroundEstimator::learn_noise() {
   if (!background_.is_known) return;
   double found_px = kUsualNoise_px;

@@ -16,7 +16,7 @@ constexpr int kBorderBlocks = 2;
 /// The smaller eigenvalue of the structure tensor at which a block has half of a full vote, (grey /
 /// px)².
 constexpr double kFullTexture = 24;
-/// A block whose own motion leaves this residual has half a vote, grey².
+/// The residual of a block's own motion at which the block has half a vote, grey².
 constexpr double kBadResidual = 60;
 
 /// The weight of a vote rises with the structure that the block has in both directions, and falls
@@ -49,9 +49,9 @@ bool is_at_rest(const MotionBlock& block) {
   return std::hypot(block.moved_px.x(), block.moved_px.y()) < kMaxOff_px / 2;
 }
 
-/// Collects the votes of single blocks, which count twice at the border of the picture. Rest at the
-/// border counts once: graphics are mostly there, whereas a camera at rest shows rest all over the
-/// picture.
+/// Collects the votes of single blocks. Votes at the border of the picture count twice, except
+/// votes for rest, because graphics are mostly at the border, whereas a camera at rest shows rest
+/// all over the picture.
 void collect_blocks(const BlockField& field, const PreviousFrame& past, bool with_edges,
                     BackgroundVotes& votes) {
   clear_votes(votes);

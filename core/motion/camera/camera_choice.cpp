@@ -11,12 +11,12 @@
 namespace spidar {
 namespace {
 
-/// The fraction of the blocks that must differ less from the earlier picture if they have moved, by
-/// more than kRounding_grey. Measured in synthetic films: where the camera rests, and HEVC or AV1
-/// moves the noise of the wall with the object, it is 0.26 at most; where the camera pans over
-/// hardly anything, 0.49 at least.
+/// The fraction of the blocks that must differ less from the earlier picture with the camera's
+/// motion than without, by more than kRounding_grey. Measured in synthetic films: at most 0.26
+/// where the camera rests and HEVC or AV1 moves the noise of the wall along with the object; at
+/// least 0.49 where the camera pans over an almost plain scene.
 constexpr double kMovedShare = 0.4;
-/// How many times more blocks must support the motion than contradict it.
+/// At least this many times as many blocks must support the motion as contradict it.
 constexpr int kMoreOften = 2;
 /// With fewer blocks the share is uncertain: kMovedShare of this many has a standard deviation of
 /// 0.08, half of the distance between the two cases above.
@@ -93,8 +93,9 @@ constexpr double kMoreOfBorder = 0.1;
 /// If less of the border contradicts the first choice, no rival is searched, which saves a quarter
 /// of the time of a frame. All folds but one choose 0.3: 0.5 % more pictures are right.
 constexpr double kDoubt = 0.5;
-/// A rival that was chosen before stays if it explains as much as the first choice and has changed
-/// by at most this fraction of its speed. All folds but two choose this value of 0.1, 0.3 and 0.6.
+/// A rival that was chosen before remains chosen if it explains as much as the first choice and has
+/// changed by at most this fraction of its speed. Of 0.1, 0.3 and 0.6, all folds but two choose
+/// this value.
 constexpr double kChanges = 0.3;
 /// A smaller difference is no second motion, but another depth or an error of the blocks, px.
 constexpr double kRivals_px = kMaxOff_px;

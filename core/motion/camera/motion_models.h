@@ -57,10 +57,10 @@ struct Background {
   double sigma_px = 0;  ///< noise of a displacement, each coordinate
   double coverage =
       1;  ///< fraction of the picture's votes that agree with the model; 0: hardly any
-  /// False where there is texture all over the picture and hardly any of it agrees with the best
-  /// model, where the votes that agree may be an object's, and where there are few votes because
-  /// most of the picture is new. The motion of the camera and of objects is then unknown, the model
-  /// is 'still', and `coverage` 0.
+  /// False in three cases: there is texture all over the picture and hardly any of it agrees with
+  /// the best model; the votes that agree may be an object's; there are few votes because most of
+  /// the picture is new. The motion of the camera and of objects is then unknown, the model is
+  /// 'still', and `coverage` 0.
   bool is_known = true;
   /// Few of the blocks with texture showed the motion: it was found from coarse blocks, or from the
   /// border beside a large object.

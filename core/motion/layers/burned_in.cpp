@@ -12,13 +12,14 @@
 namespace spidar {
 namespace {
 
-/// The largest bar on one side, as a fraction of the picture, to the nearest line: that of a film
-/// of 4:3 in a picture of 16:9; 2.35:1 in 16:9 has a little less. With more, a large box in front
-/// of a still scene without noise would count as a film in a frame.
+/// The largest width of a bar on one side, as a fraction of the picture, rounded to whole lines:
+/// the bar beside a film of 4:3 in a picture of 16:9. (The bars of 2.35:1 in 16:9 are a little
+/// narrower.) If wider bars counted, a large box in front of a still scene without noise would pass
+/// for a film in a frame.
 constexpr double kMaxOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
-/// The fraction of the positions along the edge of a film that change while a bar beside them does
-/// not: the rest may be plain or dark.
+/// Along the edge between a film and a bar, at least this fraction of the positions must change;
+/// the others may be plain or dark.
 constexpr double kChangedFraction = 0.8;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
@@ -46,7 +47,7 @@ struct Side {
     return true;
   }
 
-  /// How many lines stand still, from this side inwards; 0 if they are more than a bar can have.
+  /// The number of still lines from this side inwards; 0 if a bar cannot have so many.
   int still_lines() const {
     const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
@@ -54,8 +55,9 @@ struct Side {
     return n > most ? 0 : n;
   }
 
-  /// Adds the positions where the first line that does not stand still, or the next one, has
-  /// changed: the edge is anywhere in the first one. Returns whether they are nearly all.
+  /// Marks the positions at which `line`, the first one that is not still, or the line after it has
+  /// changed: the edge of the film may be anywhere in `line`. Returns whether nearly all positions
+  /// are marked.
   bool is_edge(int line, std::vector<uint8_t>& changed) const {
     int all = 0;
     for (int position = across; position < positions() - across; ++position) {
@@ -74,23 +76,24 @@ constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
 /// of its pixels are of the film. Blocks that moved by less than half of that, px of the field's
 /// picture, count as not moved.
 constexpr float kInPlace_px = kMaxOff_px / 2;
-/// A block that has moved, but in which this many pixels stay in place, shows graphics and the film
-/// behind them together, and its motion is neither: a tenth of the block, more than a line across.
+/// A block that has moved although this many of its pixels stay in place shows both graphics and
+/// the film behind them, and has the motion of neither. The number is a tenth of the block, which
+/// is more than a line across it.
 constexpr int kMixedPixels = 24;
-/// A dark or still part of a picture has less noise than the rest. The noise around a block is that
-/// of the blocks up to kAround_blocks away that move with the background to kWithBackground_px, px
-/// of the field's picture, if there are kMinAround of them.
+/// A dark or still part of a picture has less noise than the rest. The noise around a block is
+/// measured in the blocks up to kAround_blocks away whose motion differs from the background's by
+/// less than kWithBackground_px (px of the field's picture); there must be kMinAround of them.
 constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
 constexpr size_t kMinAround = 8;
-/// A block that has moved by less than kStill_px, px of the field's picture, is unexplained
-/// from 1.4 times the noise on, four standard deviations of its mean over a block. A camera seldom
-/// follows an object so exactly.
+/// In a block that has moved by less than kStill_px (px of the field's picture), noise explains a
+/// residual up to kStillCost times the noise: four standard deviations of its mean over a block.
+/// The limit is so low because a camera seldom follows an object that exactly.
 constexpr float kStill_px = 0.2F;
 constexpr float kStillCost = 1.4F;
-/// The score of a block: a pair in which the block stays constant adds kGain, every other pair
-/// subtracts 1. From kLasting on, which needs two such pairs, the block counts as burned in without
-/// a new sign, for at most five further pairs.
+/// The score of a block: a pair of pictures in which the block stays constant adds kGain, every
+/// other pair subtracts 1. With a score of kLasting, which takes two such pairs, the block counts
+/// as burned in without a new sign, for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
 constexpr int kMaxScore = 3 * kGain;
@@ -166,8 +169,8 @@ std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const
   return median(nearby_.begin(), nearby_.end());
 }
 
-/// Whether neither noise, up to twice its standard deviation, nor the block's motion explains its
-/// pixels.
+/// Whether the pixels of the block are explained neither by its motion nor by noise of up to twice
+/// the standard deviation.
 bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float moved_px) {
   const auto most = static_cast<float>(kMaxCost);
   const float residual = field.blocks()[block.index].residual;

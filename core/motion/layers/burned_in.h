@@ -14,13 +14,13 @@
 namespace spidar {
 
 /// Finds how many rows and columns of blocks at each side of the picture do not show the film:
-/// letterbox bars, a still frame around the film, or both, with the blocks that their edge crosses.
-/// The border of the film counts as the picture's border.
+/// letterbox bars, a still frame around the film, or both. The blocks that their edge crosses count
+/// as bars. The edge of the film then takes the part of the picture's border.
 ///
-/// Lines (rows or columns) of blocks that stay the same are a bar when next to them nearly the
-/// whole line changes: the edge of a film is straight, that of an object in front of a wall at rest
-/// is not. A bar is as wide as the one on the opposite side, give or take a block. A bar is known
-/// after kKnownAfterPairs such pairs of pictures, and until something in it changes.
+/// Lines (rows or columns) of blocks that stay the same are a bar if nearly the whole line next to
+/// them changes: the edge of a film is straight, but that of an object in front of a still wall is
+/// not. A bar must be as wide as the one on the opposite side, to within a block. A bar is known
+/// after kKnownAfterPairs such pairs of pictures, until something in it changes.
 class Margins {
  public:
   void update(const BlockField& field);
@@ -45,7 +45,7 @@ class Margins {
   struct Bars {
     int blocks = 0;
     int pairs = 0;  ///< of pictures that showed the bars
-    /// Places along both edges that have changed since the bars were found.
+    /// Positions along both edges that have changed since the bars were found.
     std::array<std::vector<uint8_t>, 2> changed;
 
     bool is_known() const { return pairs >= kKnownAfterPairs; }
@@ -64,12 +64,12 @@ class Margins {
 /// a moving object. While the camera moves, both move relative to the background.
 ///
 /// Graphics are added after the film was shot, so their pixels stay constant and lack the film's
-/// noise. The pixels of an object that the camera follows change, however exactly the camera
-/// follows. In semi-transparent graphics the film shows through: the edges stay in place, but
-/// neither rest nor any motion explains the pixels as well as in the blocks around them. An object
-/// that begins to deform looks the same, so this sign does not count where an object is known.
-/// Graphics do not move as a whole, either: in a block that seems to move a little against the
-/// background, some pixels stay where they are.
+/// noise, whereas the pixels of an object that the camera follows always change. The film shows
+/// through semi-transparent graphics. Their edges stay in place, but neither rest nor any motion
+/// explains their pixels as well as those of the blocks around them. An object that begins to
+/// deform looks the same, so this sign does not count where an object is known. A third sign is a
+/// block that seems to move a little against the background although some of its pixels stay where
+/// they are.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.
