@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The only file that includes toml++. Its parser (3.0 to 3.3) calls assert() where the name of a
-/// table begins with a wrong character, as in "[~]", and without assert() assumes that none does. A
-/// file must not end the program, so here the parser throws std::logic_error, beside
-/// toml::parse_error. Within noexcept functions of toml++ that still ends the program, as assert()
-/// would; GCC warns of this.
+/// The only file that includes toml++. The parser of toml++ 3.0 to 3.3 calls assert() when the name
+/// of a table begins with a wrong character, as in "[~]"; compiled without assert(), the parser
+/// assumes that no name does. A file must not end the program, so this header makes the parser
+/// throw std::logic_error there. (For other mistakes, the parser throws toml::parse_error.) In
+/// noexcept functions of toml++, the exception ends the program as assert() would, and GCC warns of
+/// that.
 #pragma once
 
 #include <algorithm>
@@ -40,9 +41,9 @@ struct TomlTrap {
   const char* what = "";
 };
 
-/// Looks for two things. At some bytes above ASCII that are neither in a string nor in a comment,
-/// such as U+01BA, toml++ 3.3 runs into undefined behaviour. A name of very many parts makes nested
-/// tables, which fill the stack.
+/// Finds the first of two things. At some characters above ASCII that are neither in a string nor
+/// in a comment, such as U+01BA, toml++ 3.3 has undefined behaviour. A name of very many parts
+/// creates as many nested tables, which fill the stack.
 inline TomlTrap trap_in_toml(std::string_view text) {
   constexpr int kMaxDots = 15;
   int dots = 0;
@@ -68,7 +69,7 @@ inline TomlTrap trap_in_toml(std::string_view text) {
     if (static_cast<unsigned char>(text[i]) >= 0x80) {
       return trap(i, "a letter that is not ASCII must be in quotes");
     }
-    // A name ends with its line at the latest, and each number has one point.
+    // A name ends with its line at the latest. Numbers have one point each, too few to matter.
     if (text[i] == ',' || text[i] == '=' || text[i] == '\n') dots = 0;
     if (text[i] == '.' && ++dots > kMaxDots) return trap(i, "a name has more than 16 parts");
     for (const std::string_view begin : {"\"\"\"", "'''", "\"", "'", "#"}) {
