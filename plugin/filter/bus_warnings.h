@@ -34,8 +34,8 @@ class BusWarnings {
   /// Warns if the element is in an editing timeline, whose clips have their own running times.
   void check_bins();
   void check_frame(const FrameReport& report);
-  /// Calls `function`. If it throws, posts a warning (once per stream) and returns false: an
-  /// unexpected exception does not stop the video. `doing` completes "while …" in the debug text.
+  /// Calls `function`. An unexpected exception must not stop the video: if `function` throws, posts
+  /// a warning (once per stream) and returns false. `doing` completes "while …" in the debug text.
   template <typename Function>
   bool guard(const char* doing, Function&& function,
              SourceLocation location = SourceLocation::here()) {

@@ -18,8 +18,9 @@ namespace {
 constexpr Rgb kProxy{255, 160, 30}, kGrid{130, 130, 130}, kFilm{90, 200, 250};
 /// The height of a number, as a fraction of the picture's.
 constexpr double kNumberFraction = 0.035;
-/// The strip with the curve, as fractions of the height of the picture: the whole strip, its part
-/// below 0 N, and from 0 N to the end of the axis; also the gap to the right edge.
+/// Heights in the strip with the curve, as fractions of the picture's height: the whole strip, its
+/// part below 0 N, and the axis from 0 N to its end. kCurveEnd is where the curve ends, as a
+/// fraction of the picture's width.
 constexpr double kStripFraction = 0.17, kBelowFraction = 0.02, kCurveFraction = 0.12;
 constexpr double kCurveEnd = 0.985;
 constexpr double kStripOpacity = 0.5;  ///< how much of the picture shows through the strip
@@ -50,8 +51,9 @@ cv::Mat to_stored_orientation(cv::Mat shown, const Orientation& turn) {
   return shown;
 }
 
-/// Blends into a copy of the frame, which is copied back: GStreamer's functions for lines read and
-/// write some bytes beyond their ends, which not every frame has.
+/// Blends into a copy of the frame with some spare bytes, and copies the result back: GStreamer's
+/// functions read and write some bytes beyond the end of a line, where the memory of a frame may
+/// end.
 void blend_safely(GstVideoOverlayComposition* composition, GstVideoFrame& frame) {
   constexpr gsize kRoom = 256;
   GstVideoInfo roomy;
@@ -79,7 +81,7 @@ class Sheet {
     pixels_ = cv::Mat::zeros(visible.height, static_cast<int>(width_px), CV_8UC4);
   }
 
-  /// Maps a position in pixels of the frame; the left edge of the first pixel stays.
+  /// Maps a position from pixels of the frame to those of the sheet, whose left edges coincide.
   Eigen::Vector2d at_px(const Eigen::Vector2d& frame_px) const {
     return {(frame_px.x() - visible_.x + 0.5) * pixel_aspect_ - 0.5, frame_px.y() - visible_.y};
   }
@@ -123,7 +125,8 @@ class Sheet {
     cv::circle(pixels_, fixed(centre_px), radius, bgra(color),
                width_px > 0 ? thickness(width_px) : cv::FILLED, cv::LINE_AA, kShift);
   }
-  /// Draws text upright as shown, `along` from `beyond_px`, or where there is space.
+  /// Draws text that is upright in the shown picture. The text begins at `beyond_px` and extends in
+  /// the direction `along`; if it does not fit there, it is moved into the sheet.
   void text(const std::string& text, const Eigen::Vector2d& beyond_px, const Eigen::Vector2d& along,
             const Orientation& turn);
 
@@ -247,7 +250,8 @@ void draw_outline(const MovingObject& object, bool is_felt, const PicturePart& f
   sheet.box(low_px, high_px, 2 * thin_px, kProxy);
 }
 
-/// Draws the curve along the lower edge of the shown picture, or the upper one where subtitles are.
+/// Draws the curve along the lower edge of the shown picture, or, above subtitles, along the upper
+/// one.
 void draw_curve(const ForceCurve& curve, const DrawnFrame& report, Sheet& sheet) {
   const Orientation& turn = report.turn;
   const Eigen::Vector2d size_px = sheet.size_px();

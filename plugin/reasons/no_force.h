@@ -17,9 +17,9 @@
 
 namespace spidar {
 
-/// Why nothing is felt: the reason why the force is below kFeltForce_N, or is lowered
-/// (kGripReleased, kVibration). The reasons up to kEnded and those from kCannotTouch on concern the
-/// device, the playback or, while touching, the contact, whatever the film is.
+/// Why nothing is felt: why the force is below kFeltForce_N, or has been lowered (kGripReleased,
+/// kVibration). The reasons up to kEnded and those from kCannotTouch on do not depend on the film.
+/// They concern the device, the playback or, while the picture is touched, the contact.
 enum class NoForceReason {
   kNone,  ///< there is a force
   kDeviceLost,
@@ -44,10 +44,11 @@ enum class NoForceReason {
   kNothingMoves,
   kTooWeak,
   kSilentTrack,  ///< a haptic track replaces the video's motion
-  kCannotTouch,  ///< these four while touching: the device has no third axis,
-  kNoRelief,     ///< there is no surface,
-  kNotTouching,  ///< the grip is in front of it,
-  kLightTouch,   ///< or the grip touches it too lightly
+  // While the picture is touched:
+  kCannotTouch,  ///< the device has no third axis
+  kNoRelief,     ///< the picture has no surface
+  kNotTouching,  ///< the grip is in front of the surface
+  kLightTouch,   ///< the grip touches the surface too lightly
   kLate,
   kNoDevice,
 };
@@ -68,7 +69,7 @@ NoForceReason reason_in_frame(const Frame& frame, MotionKind motion);
 NoForceReason reason_in_track(const Wrench& wrench, const std::optional<LoopSnapshot>& loop);
 
 /// A reason of the device or of the playback, which holds for any video; kNone when there is none.
-/// A device that is off because no force was wanted is no reason: it wakes with the force.
+/// That the device is off is no reason if no force was wanted: the next force switches it on.
 NoForceReason reason_in_device(const LoopSnapshot& loop, bool muted);
 
 /// Stores the latest frames and finds why there was no force in the last second. Not thread-safe.

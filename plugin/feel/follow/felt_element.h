@@ -27,8 +27,8 @@ std::optional<bool> wants_window(const std::vector<std::string>& properties);
 
 bool has_display();
 
-/// Sets NAME=VALUE and preset=NAME. Returns the names that `felt` lacks, with commas.
-/// debug-window is left out, because another element then shows the window.
+/// Sets NAME=VALUE and preset=NAME. Returns the names that `felt` lacks, separated by commas. Does
+/// not count debug-window, because another element then shows the window.
 std::string set_properties(GstElement* felt, const std::vector<std::string>& properties);
 
 /// The text of a message for people; empty when the message is for programs.

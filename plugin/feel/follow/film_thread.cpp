@@ -43,14 +43,14 @@ void set_element_base_time(const GValue* element, gpointer base) {
                             *static_cast<GstClockTime*>(base));
 }
 
-/// A film that is felt and not shown, at the position at which another program plays it: its haptic
-/// track, or its analysis. One thread, which files and devices may delay. Times are of
-/// CLOCK_MONOTONIC.
+/// Renders the force of a film at the position at which another program shows it, from the film's
+/// haptic track or by analysis. Use it in one thread, which files and devices may delay. Times are
+/// of CLOCK_MONOTONIC.
 class FollowedFilm {
  public:
-  /// `properties` are those of spidarmotion, NAME=VALUE. Opens the device, and begins at rest.
-  /// Without a device, the debug window shows the force, where there is a display. Throws
-  /// std::runtime_error, which says what is wrong.
+  /// `properties` are those of spidarmotion, NAME=VALUE. Opens the device and keeps it at rest. If
+  /// there is no device but a display, the debug window shows the force. Throws std::runtime_error,
+  /// which says what is wrong.
   FollowedFilm(const FilmPlan& plan, const std::vector<std::string>& properties)
       : plan_(plan), properties_(properties), pipeline_(nullptr, [](GstElement* pipeline) {
           gst_element_set_state(pipeline, GST_STATE_NULL);
@@ -290,9 +290,9 @@ class FollowedFilm {
   std::unique_ptr<GstElement, void (*)(GstElement*)> pipeline_;
   GstElement* felt_ = nullptr;  ///< spidarmotion or spidarsink; owned by the pipeline
   GstElement* sink_ = nullptr;  ///< the sink that waits for the clock
-  std::string begins_;          ///< printed when it plays for the first time
+  std::string begins_;          ///< printed when the film first plays
   std::set<std::string> printed_;
-  bool is_simulated_ = false;  ///< no device renders it
+  bool is_simulated_ = false;  ///< the device is simulated
   double rate_ = 1;
   bool ready_ = false;  ///< prerolled
   bool playing_ = false;

@@ -123,7 +123,7 @@ class Follower {
             [this](Player& refusing) { print_once(short_name(refusing.bus_name()) + kRefuses); }});
   }
 
-  /// A callback of a player must not destroy that player, which ends here.
+  /// Destroys the players that are gone, which their own callbacks must not do.
   void forget_gone() {
     for (auto i = players_.begin(); i != players_.end();) {
       if (!i->second->is_gone()) {
@@ -311,7 +311,7 @@ class Follower {
                   " in MPRIS and plays a film; mpv needs the package mpv-mpris");
   }
 
-  /// Prints when the player does not report its position, or what is not felt.
+  /// Prints that the player does not report its position, or why it is not felt.
   void judge_position(int64_t now_ns) {
     if (!player_ || state_.status != PlayerStatus::kPlaying) return;
     const std::string name = short_name(player_->bus_name());

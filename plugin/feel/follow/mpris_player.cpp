@@ -23,7 +23,7 @@ constexpr const char* kBus = "org.freedesktop.DBus";
 /// More than a person has; each player is queried once a second.
 constexpr size_t kMaxPlayers = 64;
 
-/// The result of a call: an answer, one of these, or another error.
+/// The result of a call: a value, the reason why there is none, or neither after another error.
 struct Answer {
   Ref<GVariant> reply;
   bool is_cancelled = false;  ///< the caller is destroyed

@@ -9,7 +9,7 @@
 namespace spidar::follow {
 namespace {
 
-/// Better players compare greater.
+/// Of two players, the one to prefer has the greater rank.
 auto rank(const PlayerView& player, bool is_followed) {
   return std::make_tuple(player.status == PlayerStatus::kPlaying, player.is_placed, is_followed);
 }

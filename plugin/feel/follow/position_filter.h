@@ -11,7 +11,7 @@ namespace spidar::follow {
 /// Estimates the position of a player from its reports, which are rare and nearly always late. A
 /// player cannot report a position before reaching it, but may report it late: mpv reports 24
 /// positions a second, from 10 ms early to 12 ms late, VLC 2.7 a second, from 4 ms early to 114 ms
-/// late. So the filter trusts the report with the least delay. Times are of CLOCK_MONOTONIC.
+/// late. The filter therefore uses the report with the least delay. Times are of CLOCK_MONOTONIC.
 class PositionFilter {
  public:
   /// The number of positions that VLC reports in 3 s.
@@ -55,9 +55,10 @@ class PositionFilter {
   bool is_target_ = false;  ///< whether the next position replaces all others after a reported jump
 };
 
-/// By how much to shift a film that is `error_ns` behind the player, `passed_ns` after the last
-/// shift: by at most 2 % of that time, which nobody feels; while `is_settling`, in the first second
-/// after a jump, by at most half of it, because hardly any force has been felt yet.
+/// Returns by how much to shift a film that is `error_ns` behind the player, `passed_ns` after the
+/// last shift. The shift is at most 2 % of that time, which nobody feels. While `is_settling`, in
+/// the first second after a jump, hardly any force has been felt yet, so the shift may be half of
+/// that time.
 int64_t small_correction_ns(int64_t error_ns, int64_t passed_ns, bool is_settling);
 
 }  // namespace spidar::follow

@@ -186,9 +186,9 @@ class ElementSource final : public window::Source {
     });
   }
 
-  /// Sends a seek upstream, as a sink does, so that the demuxer seeks in all streams. The seek runs
-  /// in a thread of GStreamer, because it may take long and waits for a state change, which in turn
-  /// may wait for the thread of the window. Of several pending seeks, only the last is executed.
+  /// Sends a seek upstream, as a sink does, so that the demuxer seeks in all streams. Uses a thread
+  /// of GStreamer, because a seek may take long and waits for a state change, which may wait for
+  /// the thread of the window. Of several pending seeks, only the last is executed.
   void seek(int64_t to_ns) override {
     const Ref<GstElement> held = hold(element_);
     if (!held || sought_ns_->exchange(to_ns) != kNone_ns) return;

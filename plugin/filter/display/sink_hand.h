@@ -12,8 +12,8 @@
 
 namespace spidar::filter {
 
-/// Lets the mouse in the window of a video sink lead the simulated hand while the picture is
-/// touched, as in the debug window, see window::MouseHand. Thread-safe.
+/// While the picture is touched, the mouse in the window of a video sink leads the simulated hand,
+/// as the mouse in the debug window does, see window::MouseHand. Thread-safe.
 class SinkHand {
  public:
   explicit SinkHand(HapticOutput& output) : output_(output) {}

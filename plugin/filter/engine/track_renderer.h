@@ -21,7 +21,8 @@
 
 namespace spidar::filter {
 
-/// Supplies the due blocks of a haptic track, which replaces the analysis, in running time.
+/// Supplies the blocks of a haptic track when their frames pass, in running time. A track replaces
+/// the analysis of frames.
 class TrackReplay {
  public:
   /// The samples of a frame continue for this long after its end, because the next one may be late.
