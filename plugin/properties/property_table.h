@@ -205,19 +205,9 @@ void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* 
 }
 
 /// Whether the element has already read the property. Object lock.
-inline bool is_too_late(GstElement* element, const GParamSpec* spec) {
-  if (spec->flags & GST_PARAM_MUTABLE_PLAYING) return false;
-  const GstState last = spec->flags & GST_PARAM_MUTABLE_READY ? GST_STATE_READY : GST_STATE_NULL;
-  return GST_STATE(element) > last || GST_STATE_NEXT(element) > last;
-}
-
-inline void warn_of_late(GstElement* element, const GParamSpec* spec) {
-  const bool is_ready = spec->flags & GST_PARAM_MUTABLE_READY;
-  GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
-                      ("%s is set too late, and stays as it was: it can be changed in %s only.",
-                       spec->name, is_ready ? "NULL and READY" : "NULL"),
-                      ("The element has read it already."));
-}
+bool is_too_late(GstElement* element, const GParamSpec* spec);
+/// Posts a warning that such a setting stays as it was.
+void warn_of_late(GstElement* element, const GParamSpec* spec);
 
 /// GObjectClass::set_property of an element whose `state` has `settings`, under its object lock,
 /// and the mutex `setting`, so that the effects of settings come in their order. A setting that

@@ -98,7 +98,7 @@ constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
 constexpr int kMaxScore = 3 * kGain;
 /// Constant pixels are also searched at this offset: the edge of a bar may be just outside a block.
-constexpr int kBeside_px = kBlock_px / 4;
+constexpr int kBesideBlock_px = kBlock_px / 4;
 
 }  // namespace
 
@@ -184,8 +184,8 @@ bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
     return are_graphics(field.staying_pixels(block.index, block.background_px, {x_px, y_px}),
                         kExactElsewhere);
   };
-  return stays(-kBeside_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
-         stays(0, kBeside_px);
+  return stays(-kBesideBlock_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
+         stays(0, kBesideBlock_px);
 }
 
 void BurnedIn::classify(const BlockField& field, const Block& block) {
