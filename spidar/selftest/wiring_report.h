@@ -61,10 +61,10 @@ Profile rewired_profile(const Profile& profile, const WiringReport& report, cons
 /// time, a wrong wire always the same ones.
 constexpr int kWiringTries = 3;
 
-/// Runs measure_wiring() and judge_wiring(); the report is not valid if the answers are not
-/// complete. As long as the report is not is_conclusive() and something has moved, up to
-/// kWiringTries times in all, calls `repeat` while all tensions are zero, and measures the unclear
-/// motors again, or all if none is unclear. Throws DeviceError like measure_wiring().
+/// Runs measure_wiring() and judge_wiring(). If the report is not conclusive although something has
+/// moved, calls `repeat` while all tensions are zero, and measures the unclear motors again, or all
+/// motors if none is unclear; up to kWiringTries times in all. The report is not valid if the
+/// answers are not complete. Throws DeviceError like measure_wiring().
 std::pair<WiringAnswers, WiringReport> test_wiring(
     StringDevice& device, const Profile& profile, const Pace& pace, const WiringSettings& settings,
     const std::function<void(const WiringReport&)>& repeat = {});

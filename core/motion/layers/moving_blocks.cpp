@@ -14,8 +14,8 @@
 namespace spidar {
 namespace {
 
-/// The direction in which most blocks move. A block that moves little says little about it, and one
-/// that moves far no more than any other.
+/// The direction in which most blocks move. A block that moves little counts little, and a block
+/// that moves far counts no more than any other.
 Eigen::Vector2f direction_of(const std::vector<Eigen::Vector2f>& moved_px, float middle_px2) {
   float unequal = 0;
   float mixed = 0;
@@ -32,18 +32,19 @@ Eigen::Vector2f direction_of(const std::vector<Eigen::Vector2f>& moved_px, float
 /// The number of pixels of a block whose errors are independent, of 256: coding and interpolation
 /// change neighbours alike.
 constexpr float kIndependentPixels = 16;
-/// The variance of a block's mean difference that remains where its own motion explains every
-/// pixel, grey²: that of rounding and of light that changes a little from position to position.
+/// The variance of a block's mean difference that remains when the block's own motion explains
+/// every pixel, grey². It is due to rounding, and to light that changes a little from position to
+/// position.
 constexpr float kMinVariance_grey2 = 0.5f;
 
 /// The squared Mahalanobis distance from which on a block moves by itself. The distance of two
 /// Gaussian coordinates exceeds it in e^(−13/2) = 0.15 % of the blocks.
 constexpr float kMinDistance2 = 13;
-/// Motions that are further apart than this differ in whole pixels, px of the field's picture: each
-/// is right to kMaxOff_px. Nearer, the differences of pixels do not separate them.
+/// Motions that are further apart than this, px of the field's picture, differ in whole pixels,
+/// because each is right to kMaxOff_px. Pixel differences do not separate motions that are closer.
 constexpr float kDifferentPixels_px = 2 * kMaxOff_px;
-/// The factor on the covariance of the parallax for a slow block. Depths have no normal
-/// distribution: much of a scene is further from its model than the middle of it suggests.
+/// The factor on the covariance of the parallax for a slow block. Depths are not normally
+/// distributed: much of a scene is further from the model than the median suggests.
 constexpr float kDepths = 4;
 /// A known object may become slower by this factor before it counts as resting. Otherwise the
 /// object would stop as soon as it falls below the threshold, and only the faster limbs of a body
@@ -54,22 +55,22 @@ constexpr float kSlower = 0.6f;
 /// block's own motion leaves.
 constexpr float kWorseByNoise = 0.3f;
 constexpr float kWorseFraction = 0.15f;
-/// The same, as a mean per pixel, for a block without texture where no object is known: noise and
-/// coding may be in both of the differences.
+/// The same, as a mean per pixel, for a block without texture where no object is known: both
+/// differences may contain noise and coding errors.
 constexpr int kFarWorse_grey = 2 * kDoubtful_grey;
 
 /// A block that stands out moves if this many around it stand out, too: errors are seldom adjacent.
 constexpr int kMinNeighbours = 3;
 
-/// How much a block must have stood out in the last frames, 0 … 1, see store_stood_out():
-/// in two of them to need only one moving neighbour, in four of them to need none.
+/// How much a block must have stood out in the last frames, 0 … 1, see store_stood_out(): a block
+/// that stood out in two of them needs only one moving neighbour, and in four of them none.
 constexpr float kLastingBesideOne = 0.5f;
 constexpr float kLastingAlone = 0.8f;
 
-/// Squared Mahalanobis distance eᵀ C⁻¹ e of a block's motion e from the background's. Its
-/// covariance is C = v S⁻¹ + N: the error of the block's own motion, whose structure tensor is S,
-/// and `noise_px2`, that of blocks that follow the background. C S = v 1 + N S has an inverse for
-/// edges, too, whose S has none.
+/// Squared Mahalanobis distance eᵀ C⁻¹ e of a block's motion e from the background's. The
+/// covariance is C = v S⁻¹ + N, where v S⁻¹ is that of the error of the block's motion, with S the
+/// structure tensor of the block, and N, `noise_px2`, that of blocks that follow the background. An
+/// edge has an S without an inverse, so the computation uses the inverse of C S = v 1 + N S.
 float distance2(const RelativeBlock& relative, const MotionBlock& block,
                 const Eigen::Matrix2f& noise_px2) {
   const float v = block.residual / kIndependentPixels + kMinVariance_grey2;
@@ -81,8 +82,8 @@ bool moves_slowly(const RelativeBlock& relative) {
   return std::hypot(relative.moved_px.x(), relative.moved_px.y()) <= kDifferentPixels_px;
 }
 
-/// How much worse the background's motion explains a block's pixels than its own motion does, Σ
-/// |now − before|; nothing if it leads too far out of the picture.
+/// How much worse the background's motion explains a block's pixels than the block's own motion
+/// does, Σ |now − before|; nothing if the background's motion leads too far out of the picture.
 std::optional<int> worse_with_background(const BlockField& field, size_t index,
                                          const RelativeBlock& relative) {
   const int with_background = field.difference_if_moved(index, relative.background_px);
@@ -111,7 +112,8 @@ bool is_expected(const std::vector<uint8_t>& expected, size_t index) {
   return index < expected.size() && expected[index] != 0;
 }
 
-/// A block of which less was in the previous picture cannot be compared with it.
+/// A block cannot be compared with the previous picture if less than this fraction of the block was
+/// in that picture.
 constexpr double kSeenBefore = 0.5;
 
 /// The fraction of a block that was in the previous picture if the block moved with the background.
@@ -204,8 +206,8 @@ bool MovingBlocks::stands_out(const BlockField& field, size_t index,
   const float least2 = expected ? kSlower * kSlower * kMinDistance2 : kMinDistance2;
   if (distance2(relative, block, noise_px2) < least2) return false;
   if (relative.was_outside) return false;
-  // The pixels of a slow block say nothing, and a moving camera moves many blocks of a scene with
-  // depth a little.
+  // The pixels of a slow block prove nothing, and in a scene with depth, a moving camera moves many
+  // blocks a little.
   const bool is_slow = moves_slowly(relative);
   if (is_slow) {
     if (expected || camera_is_still_) return true;
@@ -247,8 +249,8 @@ void MovingBlocks::confirm_with_neighbours(const BlockGrid& grid) {
   }
 }
 
-/// Updates how often each block has recently stood out with the same motion: that of glitter
-/// changes each time. A small object may have moved on to the next block.
+/// Updates how often each block has recently stood out with the same motion, because glitter stands
+/// out with another motion each time. A small object may have moved on to the next block.
 void MovingBlocks::store_stood_out(const BlockField& field) {
   const size_t n = stands_out_.size();
   stood_out_before_.swap(stood_out_);

@@ -15,20 +15,20 @@ namespace spidar {
 
 /// The deviations of blocks from the background's model, as a covariance.
 ///
-/// Where the camera travels, nearer and further parts than the model move against it, all of them
-/// along one direction: that of the epipolar lines. Across them there is only noise. An object that
-/// moves by itself must stand out from both.
+/// When the camera travels, the parts of the scene that are nearer or further away than the model
+/// move against the model, all in one direction: that of the epipolar lines. In the direction
+/// across these lines there is only noise. An object that moves by itself must exceed both.
 class Parallax {
  public:
-  /// Takes the motion of the blocks of the scene relative to the background, px. Fewer than half of
-  /// them may move by themselves.
+  /// `moved_px` is the motion of the blocks of the scene relative to the background. Fewer than
+  /// half of the blocks may move by themselves.
   void measure(const std::vector<Eigen::Vector2f>& moved_px);
 
-  /// In px²; zero before measure(), and after a measure() of no blocks.
+  /// In px²; zero before measure(), and after measure() of no blocks.
   const Eigen::Matrix2f& covariance_px2() const { return covariance_px2_; }
 
-  /// The standard deviation in the direction of `motion`, px: that of the covariance's ellipse. 0
-  /// if there is no noise, or no direction.
+  /// The standard deviation in the direction of `motion`, px: the radius of the covariance's
+  /// ellipse in that direction. 0 if there is no noise, or no direction.
   double sigma_px(const Eigen::Vector2d& motion) const;
 
  private:

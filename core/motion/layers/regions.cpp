@@ -11,8 +11,8 @@
 namespace spidar {
 namespace {
 
-/// Whether a block is at the border of the film, or of the part of it that was in the previous
-/// picture: how far a layer of the scene extends beyond is unknown.
+/// Whether a block is at the border of the film, or of the part of the film that was in the
+/// previous picture. How far a layer of the scene extends beyond that border is unknown.
 bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relative, size_t block) {
   bool is_unknown = grid.columns_beside(block) == 0 || grid.rows_beside(block) == 0;
   grid.each_beside(block, [&](size_t other) { is_unknown |= relative[other].was_outside; });
@@ -23,13 +23,14 @@ bool is_at_border(const BlockGrid& grid, const std::vector<RelativeBlock>& relat
 /// that extends beyond the border. 1 for a square that touches one side, 2 for one in a corner.
 constexpr double kBorder = 1.5;
 /// A region that moves against the background by less than this many standard deviations of the
-/// blocks around it is one of the scene's layers: the further the layers are apart, the more each
-/// differs from a single model of them all. The limit rises with the square of
-/// LayerEvidence::ratio() where that is above 1: hardly any object moves so much like a layer.
+/// blocks around it is one of the scene's layers: the further apart the layers are, the more each
+/// differs from the single model of them all. If LayerEvidence::ratio() is above 1, the limit rises
+/// with its square, because hardly any object moves so much like a layer.
 constexpr double kNoiseSigmas = 8;
 /// An object that was followed before may look more like a layer by this factor.
 constexpr double kTrusted = 1.4;
-/// A region with a larger fraction of blocks at graphics is their edge, mixed with the film behind.
+/// A region with a larger fraction of blocks at graphics is the edge of the graphics, mixed with
+/// the film behind them.
 constexpr double kMixedFraction = 0.5;
 
 }  // namespace
@@ -89,7 +90,7 @@ const std::vector<Region>& RegionFinder::find(const BlockField& field,
   for (size_t i = 0; i < n; ++i) {
     if (!relative[i].moves) continue;
     grid.each_around(i, 1, [&](size_t other) {
-      const bool is_before = other < i;  // the later ones join this one in their turn
+      const bool is_before = other < i;  // a later block joins this one when its turn comes
       if (is_before && relative[other].moves &&
           are_alike(relative[i].moved_px, relative[other].moved_px)) {
         join(static_cast<int>(i), static_cast<int>(other));

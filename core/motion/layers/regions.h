@@ -63,27 +63,28 @@ class RegionFinder {
 
 /// The motion of one region over its last frames.
 ///
-/// A part of the scene that is nearer than the background also moves against it when the camera
-/// travels. But that part moves in the direction of the background, and further: its motion on the
-/// screen is larger than its motion relative to the background. An object that a camera follows is
-/// nearer to rest on the screen than to the background.
+/// When the camera travels, a part of the scene that is nearer than the background also moves
+/// against the background. But it moves in the same direction and further, so that its motion on
+/// the screen is larger than its motion relative to the background. An object that the camera
+/// follows moves less on the screen than relative to the background.
 class LayerEvidence {
  public:
-  /// Adds a frame, in px of the field's picture: the motion relative to the background, the motion
-  /// of the background at this position, and the standard deviation of the motion of the blocks
-  /// around in the direction of `relative_px`; 0 while the camera rests.
+  /// Adds a frame, in px of the field's picture: the region's motion relative to the background,
+  /// the motion of the background at the region, and the standard deviation of the motion of the
+  /// blocks around it in the direction of `relative_px`, which is 0 while the camera rests.
   void add(const Eigen::Vector2d& relative_px, const Eigen::Vector2d& background_px,
            double noise_px, double interval_s);
 
-  /// Motion over the noise around it, both as root mean squares: in a scene with depth, parts of it
-  /// that are further away than the background move against it like something that the camera
-  /// follows, and stand out now and then. Infinite without noise.
+  /// The motion divided by the noise around the region, both as root mean squares. In a scene with
+  /// depth, parts that are further away than the background move against it like an object that the
+  /// camera follows, and now and then stand out from the noise. Infinite without noise.
   double contrast() const;
 
-  /// Speed on the screen over speed relative to the background: above 1 for a layer, below 1 for an
-  /// object that the camera follows, 1 while the camera rests or shakes in place. The first speed
-  /// is that of the mean motion, without the swings of a hand-held camera; the second is a root
-  /// mean square, which an object has even while it turns round. Infinite without any motion.
+  /// The speed on the screen divided by the speed relative to the background: above 1 for a layer,
+  /// below 1 for an object that the camera follows, 1 while the camera rests or shakes in place.
+  /// The speed on the screen is that of the mean motion, in which the swings of a hand-held camera
+  /// cancel. The other speed is a root mean square, which does not vanish while an object turns
+  /// back. Infinite without any motion.
   double ratio() const;
 
   /// Time constant of the means: longer than a swing of a hand-held camera, at 2 … 10 Hz.
@@ -96,12 +97,12 @@ class LayerEvidence {
   bool is_empty_ = true;
 };
 
-/// How much a region stands out: √area × speed, px² of the field's picture. While the camera moves,
-/// the result is 0 for what looks like an effect of its translation in a scene with depth: a layer
-/// extends over the border of the picture, moves along with the background, or hardly differs from
-/// the blocks around it. The result is 0 also for the edge of graphics, and for a single edge. A
-/// region that `was_followed` as an object before may look a little more like a layer, and stand
-/// out a little less from the noise.
+/// How much a region stands out: √area × speed, px² of the field's picture. The result is 0 for the
+/// edge of graphics and for a single edge. While the camera moves, the result is also 0 for what
+/// looks like a layer, that is, like an effect of the camera's translation in a scene with depth: a
+/// layer extends beyond the border of the picture, moves along with the background, or hardly
+/// differs from the blocks around it. A region that `was_followed` as an object before may look a
+/// little more like a layer, and stand out a little less from the noise.
 double salience(const Region& region, const LayerEvidence& evidence, bool camera_moves,
                 bool was_followed);
 

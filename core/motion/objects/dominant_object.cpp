@@ -22,7 +22,7 @@ double growth(double prominence, double of_followed, double followed_s) {
 /// The fraction of the smaller of two boxes that the other covers if both are of one object.
 constexpr double kSamePlace = 0.5;
 
-/// Whether an object is where an invisible one would be, and so is a part of the same object.
+/// Whether an object is where an invisible one would be: both are then parts of the same object.
 bool has_replaced(const MovingObject& object, const MovingObject& hidden) {
   return area_px2(object.box_px().intersection(hidden.box_px())) >
          kSamePlace * std::min(object.size_px.prod(), hidden.size_px.prod());
@@ -30,8 +30,8 @@ bool has_replaced(const MovingObject& object, const MovingObject& hidden) {
 
 }  // namespace
 
-/// Whether an object is where the followed one may have gone since it was last seen, in any
-/// direction, and has not been known before.
+/// Whether an object was not known before, and is where the followed one may have gone, in any
+/// direction, since that was last seen.
 bool DominantObject::may_be_it(const MovingObject& object) const {
   if (object.id <= newest_id_) return false;
   return last_box_px_.intersects(object.box_px());

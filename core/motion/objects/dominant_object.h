@@ -9,26 +9,29 @@
 
 namespace spidar {
 
-/// Chooses the object that the hand follows. Keeps an object until there is reason enough to leave
-/// it, so that the force does not jump between similar objects, nor to one that stands out in a few
-/// frames only.
+/// Chooses the object that the hand follows. Keeps following an object until the reason to follow
+/// another one is strong enough, so that the force jumps neither between similar objects nor to one
+/// that stands out in a few frames only.
 ///
-/// For each rival, a reason to follow it grows at the rate (p − c f) / (p + c f), where p is the
-/// prominence of the rival, f that of the followed object, and c grows from 1 to kClearly in the
-/// first kSettles_s in which an object is visible, because which of two objects is found first is
-/// mostly chance. The rate is 1 when the followed object rests or is invisible, 0 when the rival is
-/// c times as prominent, and −1 when the rival rests. A rival whose reason reaches kReason_s
-/// replaces the followed object. An eye decides in a similar way where to look next: a signal rises
-/// to a threshold (Carpenter and Williams 1995).
+/// Each rival has a reason to be followed, in seconds, which grows at the rate (p − c f) / (p + c
+/// f). p is the prominence of the rival and f that of the followed object. c grows from 1 to
+/// kClearly in the first kSettles_s in which the followed object is visible, because it is mostly
+/// chance which of two objects is found first. The rate is 1 when the followed object rests or is
+/// invisible, 0 when the rival is c times as prominent, and −1 when the rival rests. A rival whose
+/// reason reaches kReason_s replaces the followed object. An eye decides in a similar way where to
+/// look next: a signal rises to a threshold (Carpenter and Williams 1995).
 ///
 /// No reason falls below −kReason_s, nor below 0 while the followed object is invisible. An object
-/// that has stood out for long may therefore rest for twice kReason_s. A rival that appears while
-/// the followed object is invisible begins with half of the time for which the followed one has
-/// been lost: after twice kReason_s it is followed at once. So are the first object, any object
-/// after the followed one has left at the border of the picture, and one that covers half of the
-/// position at which the followed one would be while it is invisible: it is a part of the same
-/// object. An object that first appears where the followed one may have gone since it was lost, in
-/// any direction, is taken for that one: a ball that bounces in a frame in which it is not found.
+/// that has stood out for long may therefore rest for twice kReason_s. The reason of a rival that
+/// appears while the followed object is invisible begins at half of the time since that object was
+/// lost.
+///
+/// These are followed at once: the first object; any object after the followed one has left at the
+/// border of the picture; any that appears when the followed one has been lost for twice kReason_s;
+/// and, while the followed object is invisible, an object that covers half of the place where it
+/// would be, because that is a part of the same object. An object that first appears where the lost
+/// one may have gone, in any direction, counts as the lost one: a ball may bounce in a frame in
+/// which it is not found.
 class DominantObject {
  public:
   DominantObject();
@@ -60,7 +63,7 @@ class DominantObject {
 
   uint32_t id_ = 0;        ///< 0: none
   double lost_s_ = 0;      ///< since the followed object was visible
-  double followed_s_ = 0;  ///< for how long it has been followed in sight
+  double followed_s_ = 0;  ///< how long the followed object has been visible
   /// The followed object's last box, grown by how far it may have moved since, its last speed, and
   /// the id of the newest object then.
   Eigen::AlignedBox2d last_box_px_;

@@ -52,7 +52,7 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
 }
 
 /// Chooses a similarity if its cost is below that of a translation by twice the difference of their
-/// penalties in the GRIC: twice, so that the choice does not flicker.
+/// penalties in the GRIC. Once that difference would do, but the choice would flicker.
 void ObjectMeter::choose_similarity(MotionModel& motion) {
   if (motion.kind == ModelKind::kSimilarity) return;
   const auto similarity = fit_robustly(ModelKind::kSimilarity, motion, collected_);

@@ -34,9 +34,8 @@ struct ObjectMotion {
   int points = 0;               ///< number of windows or blocks
 };
 
-/// Measures the motion of one object. Blocks give the motion; the windows on the object, where
-/// there are enough, give it to a fraction of a pixel. Rotation and growth are included if the GRIC
-/// prefers them.
+/// Measures the motion of one object from its blocks or, to a fraction of a pixel, from its windows
+/// if there are enough. Includes rotation and growth if the GRIC prefers them.
 class ObjectMeter {
  public:
   ObjectMeter();

@@ -81,8 +81,8 @@ uint32_t ObjectTracker::create(const Region& region) {
   return track.key;
 }
 
-/// How many of the former blocks of an object, which now do not clearly move by themselves, are
-/// found in the picture before and are not plain; nothing unless they are most of its usual blocks.
+/// Counts the former blocks of an object that do not clearly move by themselves now, are found in
+/// the picture before, and are not plain. Returns nothing unless they are most of its usual blocks.
 std::optional<int> ObjectTracker::resting_blocks(const Track& track,
                                                  const BlockField& field) const {
   int blocks = 0, found = 0;
@@ -95,9 +95,9 @@ std::optional<int> ObjectTracker::resting_blocks(const Track& track,
   return found;
 }
 
-/// Whether a region is enough to show an object, `track` if that is not null. A single block is
-/// only enough for the rest of a known object, and for a new object if the block lasts. Where most
-/// of a known object stands still beside the block, the object comes to rest: the block is its rim.
+/// Whether a region is large enough to be an object, `track` if that is not null. A single block is
+/// enough for what is left of a known object, and for a new object if the block lasts. If most of a
+/// known object stands still beside the block, the object comes to rest and the block is its rim.
 bool ObjectTracker::is_enough(const Region& region, const Track* track,
                               const BlockField& field) const {
   if (region.blocks >= kMinBlocks) return true;
@@ -199,9 +199,10 @@ void ObjectTracker::update_rotation(Track& track, const ObjectMotion& found,
   track.object.growth_1_s = track.growth.rate_1_s();
 }
 
-/// How far blocks outside an object are from the background in the direction in which it moves, as
-/// a standard deviation: in a scene with depth, half of the picture may move against any single
-/// model of the background. A region that does not stand out from that is not an object.
+/// The standard deviation of the motion of the blocks outside an object against the background, in
+/// the direction in which the object moves: in a scene with depth, half of the picture may move
+/// against any single model of the background. A region that does not stand out from that is not an
+/// object.
 double ObjectTracker::noise_around(const Track& track) {
   // Where few blocks showed how the camera moves, those with texture may all be an object's rim.
   if (background_->is_of_few) return background_->sigma_px;
@@ -218,8 +219,9 @@ double ObjectTracker::noise_around(const Track& track) {
   return parallax_.sigma_px(track.region.relative_px);
 }
 
-/// Whether something else is in the place of most of an object: the visible part is a rim, and most
-/// of its blocks are not found in the picture before. Their motions are errors.
+/// Whether something else is in the place of most of an object: its visible part is a rim, and most
+/// of the blocks of that part are not found in the picture before, so that their motions are
+/// errors.
 bool ObjectTracker::has_vanished(const Track& track, const FieldInFrame& frame) const {
   return track.is_rim(track.region) &&
          frame.field.are_lost([&](size_t block) { return owners_[block] == track.key; });
@@ -272,8 +274,8 @@ void ObjectTracker::observe_rest(Track& track, const FieldInFrame& frame) {
 }
 
 /// Handles a frame in which nothing is known to move by itself at the object's position. If most of
-/// its usual blocks were there before, the object has come to rest there. If only a rim was
-/// visible, the object is invisible and continues with its last motion.
+/// the object's usual blocks were there before, the object has come to rest there. If only a rim
+/// was visible, the object is invisible now and continues with its last motion.
 void ObjectTracker::miss(Track& track, const FieldInFrame& frame) {
   MovingObject& object = track.object;
   if (track.since_s == 0) object.has_left = track.has_left(frame.interval_s);

@@ -27,7 +27,7 @@ namespace spidar {
 struct Track {
   enum class State : uint8_t {
     kSeen,    ///< a region of this frame shows it
-    kRests,   ///< most of it is where it was, and nothing there clearly moves
+    kRests,   ///< most of the object is where it was, and nothing there clearly moves
     kHidden,  ///< nothing shows it
   };
 
@@ -40,16 +40,17 @@ struct Track {
     Eigen::Vector2d sides_px = Eigen::Vector2d::Zero();
   };
 
-  /// Total number of blocks with which an object must have been seen to exist: a small one must be
-  /// seen more often. A single frame never suffices, because noise does not move alike twice.
+  /// An object is confirmed when it has been seen with this many blocks in all its frames together,
+  /// so a small object must be seen more often. A single frame never suffices, because noise does
+  /// not move twice in the same way.
   static constexpr int kConfirmBlocks = 7;
   /// With less of its usual blocks than this, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
   /// How long an object may be invisible or at rest before it is dropped: longer than objects are
   /// usually hidden, and than most pauses in their motion.
   static constexpr double kForgotten_s = 0.5;
-  /// Time constant with which the box to draw follows the blocks: of a block that comes and goes
-  /// with each frame of 25 a second, a tenth is left.
+  /// Time constant with which the drawn box follows the blocks. If a block appears in every second
+  /// frame of 25 a second, the box moves by a tenth of that block.
   static constexpr double kBoxSettles_s = 0.4;
 
   uint32_t key = 0;     ///< in the order of creation, > 0
@@ -64,7 +65,7 @@ struct Track {
   double since_s = 0;  ///< how long it has been at rest or hidden
   LayerEvidence evidence;
   int blocks_seen = 0;     ///< in all frames together, see kConfirmBlocks
-  bool is_proven = false;  ///< it was clearly no layer of the scene in one of its frames
+  bool is_proven = false;  ///< in one of its frames, it was clearly no layer of the scene
   bool is_layer = false;   ///< looks more like a part of the scene than like an object
 
   bool is_seen() const { return state == State::kSeen; }
@@ -116,8 +117,8 @@ struct Track {
     low_px += moved_px;
     high_px += moved_px;
   }
-  /// Moves the drawn box towards the box around the blocks, and keeps it within a block of that
-  /// one, the precision with which blocks locate an edge.
+  /// Moves the drawn box towards the box around the blocks. The two never differ by more than a
+  /// block, the precision with which blocks locate an edge.
   void draw_box_to(const Region& seen, double interval_s) {
     const double newest = interval_s / (kBoxSettles_s + interval_s);
     const auto draw = [newest](Eigen::Vector2d& corner_px, const Eigen::Vector2d& seen_px) {

@@ -14,12 +14,12 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector2f;
 
-/// How far an edge may be from its predicted place in each step, px of the field's picture: the
-/// start is accurate to about a pixel, and that of an object that bends a little to a quarter.
+/// How far an edge may be from its predicted place in each step, px of the field's picture. The
+/// start is accurate to about a pixel; the result for an object that bends a little, to a quarter.
 constexpr float kEdge_px[] = {1, 0.5F, 0.25F, 0.25F};
 constexpr size_t kLastStep = std::size(kEdge_px) - 1;
-/// After a later step that is shorter than this, px, only the last one follows: the omitted steps
-/// would hardly bring its start nearer.
+/// After a later step that is shorter than this, px, only the last step follows, because the
+/// omitted ones would hardly improve its start.
 constexpr float kSettled_px = kEdge_px[kLastStep] / 2;
 /// A slope of less than this many standard deviations of noise does not count.
 constexpr float kSlopeSigmas = 3;
@@ -98,8 +98,9 @@ Eigen::Matrix2d linear_at(const MotionModel& model, const Vector2d& at_px) {
 }
 
 /// Keeps at most `most` of the values, spread evenly: those whose index times the golden ratio has
-/// a fractional part below the share that is kept. Such parts fill an interval evenly and have no
-/// period, while every n-th pixel is in step with rows and with patterns n wide.
+/// a fractional part below the fraction that is kept. These parts fill an interval evenly and
+/// without a period, whereas every n-th pixel would be in step with rows and with patterns n pixels
+/// wide.
 template <typename Value>
 void thin_out(std::vector<Value>& values, size_t most) {
   if (values.size() <= most) return;
@@ -222,8 +223,8 @@ TurnMeter::Sums TurnMeter::sum_up(const Eigen::Vector4f& motion, float edge_px,
   return all;
 }
 
-/// The disagreement of the blocks, by a jackknife: each is left out once. Infinite where one block
-/// alone determines a parameter. `step` is the result of all blocks.
+/// The disagreement of the blocks, by a jackknife, which leaves out each block once. Infinite for a
+/// parameter that one block alone determines. `step` is the result of all blocks.
 Eigen::Vector4d TurnMeter::between_px2(const Sums& all, const Eigen::Vector4f& step) const {
   Eigen::Vector4d sum_px2 = Eigen::Vector4d::Zero();
   for (const Sums& sums : sums_) {
@@ -277,7 +278,7 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
     const Sample there(evidence.field.before(), there_px);
     return there.is_inside ? squared(now_blurred(pixel, there) - there.grey) : pixel.behind2;
   };
-  // Bending parts say less about the rotation of the whole.
+  // Parts that bend show less of the rotation of the whole.
   int own = 0, explained = 0;
   for (const Pixel& pixel : pixels_) {
     const float most2 =
@@ -290,8 +291,8 @@ Turn TurnMeter::measure(uint32_t key, const Region& region, const ObjectMotion& 
   const std::complex<double> found_back = std::complex<double>(motion[2], motion[3]) / reach_px;
   const std::complex<double> forth = found_back / (1.0 - found_back) - behind;
   const Eigen::Vector4d of_blocks_px2 = between_px2(all, covariance * all.gradient);
-  // The variance is that of the noise or of the disagreeing blocks, whichever is larger. Nothing is
-  // known where errors of the slopes determine the parameter.
+  // The variance is that of the noise or of the disagreeing blocks, whichever is larger. If errors
+  // of the slopes determine the parameter, nothing is known about it.
   const auto estimate = [&](double value, int parameter) {
     const float of_noise_px2 = covariance(parameter, parameter);
     const double reliable = 1 - static_cast<double>(all.noise * of_noise_px2);

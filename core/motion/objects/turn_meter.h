@@ -34,8 +34,8 @@ struct Turn {
 /// the pixels of the object by Gauss–Newton steps from its motion, with weights of Geman and
 /// McClure (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004). Blocks
 /// that show one edge each determine the rotation together, although each of them leaves the motion
-/// along its edge open. Pixels that the background explains better are left out, in either picture:
-/// parts that an object uncovers pull its rim.
+/// along its edge open. Pixels of either picture that the background explains better are left out,
+/// because parts that the object uncovers would pull its rim along.
 class TurnMeter {
  public:
   TurnMeter();
@@ -45,8 +45,9 @@ class TurnMeter {
   Turn measure(uint32_t key, const Region& region, const ObjectMotion& found, const Turn& as_before,
                const ObjectEvidence& evidence);
 
-  /// Limits that bound the time for a frame: of more blocks or pixels, some are used, evenly. With
-  /// half as many pixels, the growth of a plain disc is lost (`spidar-bench turns`).
+  /// Limits that bound the time for a frame. If there are more blocks or pixels, an evenly spread
+  /// part of them is used. With half as many pixels, the growth of a plain disc is lost
+  /// (`spidar-bench turns`).
   static constexpr size_t kMaxBlocks = 32;
   static constexpr size_t kMaxPixels = 512;
 
@@ -97,14 +98,14 @@ class TurnMeter {
   float noise_grey2_ = 1;
 };
 
-/// A smoothed rate of rotation or growth: frames with a small error contribute more. The felt rate
-/// rises from 0 where it exceeds its error bound, and fades without evidence.
+/// A smoothed rate of rotation or growth, to which frames with a small error contribute more. The
+/// felt rate is 0 up to the error bound, rises beyond it, and fades without evidence.
 class SteadyRate {
  public:
   /// Time constant with which the rate fades.
   static constexpr double kFades_s = 0.1;
 
-  /// Takes the change that a frame shows, `interval_s` > 0 after the previous one.
+  /// Adds the change that a frame shows, `interval_s` > 0 after the previous one.
   void update(const Estimate& change, double interval_s) {
     if (!std::isfinite(change.sigma)) return miss(interval_s);
     const double variance = std::pow(change.sigma / interval_s, 2);
