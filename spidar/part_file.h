@@ -17,14 +17,14 @@ void mark_written(int file, const std::string& maker);
 /// Whether `maker` has written the file at `path`, and nobody has changed its content since.
 bool is_as_written(const std::string& path, const std::string& maker);
 
-/// An output file that appears under its name only when it is complete. Until then it is a part
-/// file in the folder of its target, named `.part-`, a number that follows from the name of the
-/// target, and the same extension, so that the name is never too long. The part file has
-/// one owner at a time, among all threads and processes, because it is locked for as long as the
-/// object exists. The leftover of a killed process is removed, never written into, and a link of
-/// that name is not followed: nobody else has the file open. The destructor removes the part file.
-/// If the target is a link, publish() replaces the file to which it leads, and keeps the
-/// permissions of that file.
+/// An output file that appears under its name, the target, only when it is complete. Until then it
+/// is a part file in the folder of the target. The name of the part file is `.part-`, a number that
+/// follows from the name of the target, and the target's extension, so that it is never too long.
+/// The part file has one owner at a time, among all threads and processes, because it is locked for
+/// as long as this object exists. The leftover of a killed process is removed and never written
+/// into, and a link with the name of the part file is not followed, so that nobody else has the
+/// file open. The destructor removes the part file. If the target is a link, publish() replaces the
+/// file to which the link leads, and keeps the permissions of that file.
 class PartFile {
  public:
   /// Which existing files are replaced.

@@ -20,10 +20,10 @@ std::string as_text(const T& value) {
 
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* pattern, ...);
 
-/// Returns the text with a question mark for each control character, which a terminal would obey,
-/// for each character that reverses the direction of writing, and for each byte that is not UTF-8,
-/// which neither JSON nor GStreamer accepts. Use this for names, serial numbers and the like that
-/// come from a device.
+/// Returns the text with a question mark in place of each control character, which a terminal would
+/// execute, each character that reverses the direction of writing, and each byte that is not UTF-8,
+/// which neither JSON nor GStreamer accepts. Use this for texts that come from a device, such as
+/// names and serial numbers.
 std::string printable(std::string_view text);
 
 /// The first 256 bytes of a file, which hold a description in sysfs; empty if the file cannot be

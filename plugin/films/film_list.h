@@ -17,11 +17,12 @@ struct ListedFilm {
   uintmax_t bytes = 0;  ///< of the file; 0 if the film itself was named
 };
 
-/// The films of `names`. A folder stands for all files in it, and in the folders below, whose names
-/// end as those of films do (".mkv", ignoring case), without hidden ones and hidden folders: the
-/// largest first, so that a long film does not come last and alone. Links to folders are not
-/// followed. `left_out` describes the other files of the folders, in one line; may be empty. Throws
-/// std::runtime_error if a folder has no film or cannot be read; folders below may be unreadable.
+/// Returns the films of `names`. A folder stands for the files in it and in the folders below whose
+/// names end like those of films (".mkv", ignoring case). Hidden files and folders are left out,
+/// and links to folders are not followed. The largest file comes first: a long film that came last
+/// would keep only one processor busy. `left_out` describes the other files of the folders, in one
+/// line; may be empty. Throws std::runtime_error if a folder has no film or cannot be read; folders
+/// below may be unreadable.
 std::vector<ListedFilm> list_films(const std::vector<std::string>& names, std::string& left_out);
 
 }  // namespace spidar

@@ -24,9 +24,10 @@ struct PacketFraming {
 /// The framing that the caps of a parsed stream state.
 PacketFraming framing_of(const GstCaps* caps);
 
-/// Hashes the end of the last unit of a packet: between one half of it and the whole, because parts
-/// that containers add or remove, such as parameter sets and delimiters, come before the picture.
-/// Start codes, lengths and zeros at the end are not included. 16 hexadecimal digits.
+/// Returns the hash of the end of the last unit of a packet, 16 hexadecimal digits. The hashed part
+/// is between a half and all of the unit, because parts that containers add or remove, such as
+/// parameter sets and delimiters, come before the picture. Start codes, lengths and zeros at the
+/// end are not included.
 std::string hash_packet(const uint8_t* data, size_t size, const PacketFraming& framing);
 
 struct FilmPacket {

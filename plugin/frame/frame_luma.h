@@ -70,8 +70,8 @@ LumaLevels luma_levels(const GstVideoInfo& info);
 bool holds_picture(const GstVideoFrame& frame);
 
 /// Returns the luma of a video frame for the analysis. Reads plane 0 of planar and semi-planar
-/// formats in place, with its stride and its depth in bits; computes luma from packed RGB and from
-/// formats that must be unpacked; honours a crop meta; takes only the first field of interlaced
+/// formats in place, with its stride and its depth in bits, and computes luma from packed RGB and
+/// from formats that must be unpacked. Applies a crop meta. Uses only the first field of interlaced
 /// frames, flagged or not, because the two fields are of two moments. With interlace-mode=mixed,
 /// the flags of each frame say whether it is interlaced.
 class FrameLuma {

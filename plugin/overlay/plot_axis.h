@@ -74,9 +74,9 @@ inline double force_axis_end_N(double largest_N) {
   return step_N * std::ceil(end_N / step_N * (1 - PlotAxis::kRounding));
 }
 
-/// Upper end of a range from 0 for these values (≥ 0), which a few outliers do not stretch: the
-/// largest, but at most 1.5 times the value that 95 % of them do not exceed. Where 95 % are zero an
-/// outlier cannot flatten anything, and the end is the largest. 0 without values.
+/// The upper end of an axis from 0 for these values (≥ 0), which a few outliers do not stretch: the
+/// largest value, but at most 1.5 times the value that 95 % of them do not exceed. If 95 % are
+/// zero, an outlier cannot flatten anything, and the end is the largest value. 0 without values.
 inline double robust_largest(std::vector<double> values) {
   constexpr double kUsual = 0.95, kHeadroom = 1.5;
   if (values.empty()) return 0;

@@ -8,9 +8,9 @@
 namespace spidar {
 
 /// Makes GStreamer find the plugins `names` of this version, in this process and in those that it
-/// starts: beside the program, as in a build folder, or where they were installed, if GStreamer
-/// searches neither. Returns an empty string, or what to do when the plugins are missing. Call this
-/// after gst_init().
+/// starts: adds the folder of the program, as in a build folder, or the one in which the plugins
+/// were installed, if GStreamer searches neither. Returns an empty string, or what to do when the
+/// plugins are missing. Call this after gst_init().
 std::string find_own_plugins(const std::vector<std::string>& names);
 
 }  // namespace spidar

@@ -9,11 +9,11 @@
 
 namespace spidar {
 
-/// Where there is no graphics card, OpenGL draws on the processor: a picture of 1080 lines
-/// takes 2.8 times as long as with ximagesink (user time of 40 of them on Xvfb), too long for a
-/// film, which then stalls. After this call, which must come before gst_init(), players do
-/// not choose glimagesink. Returns a text for the user; empty when nothing was changed, as when the
-/// user has set the ranks of the sinks.
+/// Keeps players from choosing glimagesink when there is no graphics card: OpenGL then draws on the
+/// processor, and the film stalls, because a picture of 1080 lines takes 2.8 times as long as with
+/// ximagesink (user time of 40 pictures on Xvfb). Call this before gst_init(). Returns a text for
+/// the user; empty when nothing was changed, for example because the user has set the ranks of the
+/// sinks.
 inline std::string avoid_software_gl() {
   constexpr const char* kRanks = "GST_PLUGIN_FEATURE_RANK";
   const auto is_there = [](const char* path) { return access(path, F_OK) == 0; };

@@ -84,9 +84,9 @@ class NoForceHistory {
   /// frames that are shown at that time or later.
   void add(int64_t shown_ns, double force_N, NoForceReason reason) noexcept;
 
-  /// The reason for the frames shown in the second up to `now_ns`: kNone when one of them has a
-  /// force that is felt; kRepeatedFrames when all of them show the same picture; else the reason
-  /// that most pictures have.
+  /// Returns why the frames shown in the second up to `now_ns` had no force: kNone if one of them
+  /// has a force that is felt, kRepeatedFrames if all of them show the same picture, otherwise the
+  /// reason of most pictures.
   NoForceReason reason(int64_t now_ns) const noexcept;
 
   void reset() noexcept { count_ = 0; }

@@ -16,13 +16,13 @@
 
 namespace spidar {
 
-/// The delay of an element's frames on the way to the screen: the latency that the sink received,
-/// `ts-offset` of the sink (playbin: av-offset), offsets of the pads on the way, and elements on
-/// the way that wait for the clock themselves (`clocksync`, `identity sync=true`). The sink shows a
-/// frame when the last of the waiting elements has passed it on.
+/// The delay of an element's frames on the way to the screen. The delay consists of the latency
+/// that the sink received, the `ts-offset` of the sink (playbin: av-offset) and the offsets of the
+/// pads on the way. Elements on the way may also wait for the clock themselves (`clocksync`,
+/// `identity sync=true`); the sink shows a frame when the last of these has passed it on.
 ///
-/// Only the latency is sent in an event, which is not repeated for an element that joins a pipeline
-/// already playing: therefore this class examines the path to the sink itself.
+/// Only the latency is sent in an event, and the event is not repeated for an element that joins a
+/// pipeline while it plays. This class therefore examines the path to the sink itself.
 ///
 /// Not thread-safe: the owner holds one lock around it.
 class PresentationDelay {

@@ -22,9 +22,10 @@ namespace spidar::tools {
 namespace {
 
 /// The paths of six funscripts for the six channels of a track, as players of several axes read
-/// them: "film.funscript" for the channel `main`, "film.surge.funscript" and so on for the others,
-/// with the names that MultiFunPlayer and other players search (surge forwards, sway sideways,
-/// twist about the vertical, roll, pitch). The vertical force has the name of `main`.
+/// them. The channel `main` has "film.funscript"; the others have the names that MultiFunPlayer and
+/// other players search, such as "film.surge.funscript" (surge forwards, sway sideways, twist about
+/// the vertical, roll, pitch). The vertical force, which usually is `main`, has the name of the
+/// channel that replaces it.
 std::array<std::string, kTrackChannels> axis_scripts(const std::string& path, size_t main) {
   // By channel: fx, fy, fz, tx, ty, tz. The first axis of a player is the vertical one.
   constexpr const char* kNames[kTrackChannels] = {".sway",  "",       ".surge",

@@ -16,11 +16,12 @@ struct EncodedFilm {
   std::string missing;       ///< see KeptStreams
 };
 
-/// Plays `film` through `elements`, each followed by "!", from upright raw pictures, and writes
-/// the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with the sound and the
-/// subtitles of the film. The element named `last` (one of these, or "flip", which is before them)
-/// gets `properties`, and its frames give the progress for `report`, see FilmProgress. Throws
-/// std::runtime_error; it names the package to install when GStreamer has no encoder of H.264.
+/// Plays the pictures of `film`, upright and raw, through `elements`, each of which is followed by
+/// "!". Writes the result as H.264 into `part`, whose name will end in .mp4 or .mkv, with the sound
+/// and the subtitles of the film. The element named `last` (one of `elements`, or "flip", which
+/// precedes them) gets `properties`, and `report` gets the progress of its frames, see
+/// FilmProgress. Throws std::runtime_error, which names the package to install when GStreamer has
+/// no encoder of H.264.
 EncodedFilm encode_film(const std::string& film, const std::string& elements, const char* last,
                         const RecordProperties& properties, const PartFile& part,
                         const std::function<void(int percent)>& report);

@@ -48,8 +48,9 @@ struct FilmMatch {
 /// format may end anywhere.
 FilmMatch match_film(const Film& film, int64_t track_ns, const tracks::Notes& notes);
 
-/// For a film that is not a file: returns an empty string, or why a track that lasts `track_ns` is
-/// not that of the film that comes to `pad`: its duration, if known, must agree within a frame.
+/// For a film that is not a file: the duration of the film that comes to `pad`, if known, must
+/// agree with `track_ns`, that of the track, within a frame. Returns an empty string, or why the
+/// track is that of another film.
 std::string why_other_film(GstPad* pad, int64_t track_ns, int64_t frame_ns);
 
 }  // namespace spidar

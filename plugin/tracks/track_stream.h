@@ -30,18 +30,19 @@ struct FrameWrench {
   Wrench wrench;
 };
 
-/// The pad `wrench` of spidarextract: converts wrenches of frames to buffers of samples. These lie
-/// at whole milliseconds of the running time of the video, from 0 on, in whatever segments the
-/// frames come: a demuxer may move the segment after the first frame (matroskademux, when the sound
-/// begins earlier than the pictures), an edit list has one segment for each edit, and encoders of
-/// sound accept no step backwards. The segment of the samples gives their stream time.
+/// The pad `wrench` of spidarextract: converts the wrenches of frames to buffers of samples. The
+/// samples are at whole milliseconds of the running time of the video, from 0 on, whatever the
+/// segments of the frames are: encoders of sound accept no step backwards, but a demuxer may move
+/// the segment after the first frame (matroskademux, when the sound begins earlier than the
+/// pictures), and an edit list has one segment for each edit. The segment of the samples gives
+/// their stream time.
 ///
 /// Streaming thread only. All methods that return a flow push the samples that have become known.
 class Stream {
  public:
   static constexpr GstClockTime kBuffer_ns = 40 * GST_MSECOND;
-  /// The curve between two frames needs the frame after them; if that is further away than this,
-  /// the samples do not wait for it.
+  /// The curve between two frames needs the frame after them. If that frame is further away than
+  /// this, the samples do not wait for it.
   static constexpr GstClockTime kLookAhead_ns = 100 * GST_MSECOND;
   /// An interval without frames has silent samples. A longer one than this has none: a timestamp is
   /// wrong, or the stream had been running for long when it was joined.

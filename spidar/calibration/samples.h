@@ -25,9 +25,9 @@ void check_samples(const Profile& profile, const CountSamples& counts, int min_s
 /// averaged. Rounding errors of up to four samples count as independent.
 double rounding_sd_m(const Profile& profile, double averaged);
 
-/// Returns the change of the lengths since zero count. Successive samples that agree to a third of
-/// a millimetre are averaged: a grip that stands still gives the same information however often it
-/// is read, and neither noise nor rounding, which is the same each time, may count as motion.
+/// Returns the change of the lengths since zero count. Averages successive samples that agree to a
+/// third of a millimetre: a grip that stands still gives the same information however often it is
+/// read, and neither noise nor a rounding error, which is the same each time, may count as motion.
 std::vector<StringVector> distinct_lengths_m(const Model& model, const CountSamples& counts);
 
 /// The pose at which the counters are zero.

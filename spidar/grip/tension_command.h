@@ -67,11 +67,11 @@ class MotorHeat {
 /// (docs/strings.md). A hand would feel that as a jerk, and a motor cannot follow it.
 class TensionSlew {
  public:
-  /// The shortest time in which a string passes through its whole range, …
+  /// The shortest time in which a string passes through its whole range, unless the range is small.
   static constexpr double kRange_s = 0.02;
-  /// … unless the range is so small that this would hold up a wrench, which may change as fast as
-  /// SafetyLimits permit: weak motors need all of their range for a few newtons, and a force that a
-  /// brake takes away would continue to accelerate the grip.
+  /// A limit on the change of tensions below this would delay a wrench, which may change as fast as
+  /// SafetyLimits permit: weak motors need all of their range for a few newtons. A force that the
+  /// brake takes away would then continue to accelerate the grip.
   static constexpr double kMin_N_s = 300;
 
   static double pace_N_s(const StringDrive& drive) noexcept {

@@ -3,9 +3,10 @@
 // Waits until its host dies or stops responding, then sets the motors of one board to zero. The
 // class Guardian starts this program with a socket as standard input.
 //
-// The host passes the device's file, open and claimed. The claim lasts as long as any process holds
-// that file: a host that is stopped, or a child that has inherited the file, cannot keep the zeros
-// from the board, and no new host gets the board before them.
+// The host passes the device's file, open and claimed. The claim lasts as long as any process has
+// that file open. A host that is stopped, or a child that has inherited the file, therefore cannot
+// keep the guardian from sending the zeros, and no new host gets the board before it has received
+// them.
 
 #include <array>
 #include <cerrno>

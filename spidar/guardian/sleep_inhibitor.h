@@ -22,10 +22,11 @@ inline std::string systemd_program(const char* name) {
   return *folder ? std::string(folder) + "/" + name : std::string();
 }
 
-/// Keeps the machine from being suspended while motors pull. Suspending freezes a host and its
-/// guardian at the same time, so that nobody sets the motors to zero. systemd-inhibit holds a lock
-/// of logind as long as its command runs; the command is a cat that reads from this process, so the
-/// lock ends with this process. Without logind, or without permission, there is no lock.
+/// Keeps the machine from being suspended while motors pull. A suspension would freeze a host and
+/// its guardian at the same time, so that nobody would set the motors to zero. systemd-inhibit
+/// holds a lock of logind as long as its command runs. The command is a cat that reads from this
+/// process, so the lock ends with this process. Without logind, or without permission, there is no
+/// lock.
 class SleepInhibitor {
  public:
   SleepInhibitor() = default;

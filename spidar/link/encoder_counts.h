@@ -15,8 +15,8 @@ namespace spidar::boards {
 /// Unwraps up to kMaxStrings counters of `bits` bits, assuming that each takes the shorter way.
 class CountUnwrapper {
  public:
-  /// No hand moves further between two readings: a quarter of 16 bits is 0.28 m at 17 µm a count,
-  /// for which a hand at 10 m/s needs 28 ms; a board counts as lost after 20 ms.
+  /// No hand moves a string further between two readings. A quarter of 16 bits is 0.28 m at 17 µm
+  /// per count; a hand at 10 m/s needs 28 ms for that, and a board counts as lost after 20 ms.
   static constexpr int32_t kMaxStep = 1 << 14;
 
   /// 16 … 31 bits.
@@ -43,9 +43,10 @@ class CountUnwrapper {
 
   /// Continues with the counters after a break in which the board was not read. Returns false and
   /// changes nothing when a counter has jumped, or when a loss of power seems to have reset the
-  /// counters: they are nearer to zero than to their previous values, which were not near zero. A
-  /// grip that a hand moved towards the counters' zero looks the same. Mistaking this for a reset
-  /// costs a new zero; the opposite mistake would keep a wrong zero. begin() accepts any counters.
+  /// counters: they are nearer to zero than to their previous values, which were not near zero. The
+  /// counters look the same after a hand has moved the grip towards their zero. To mistake such a
+  /// motion for a reset costs a new zero; the opposite mistake would keep a wrong zero. begin()
+  /// accepts any counters.
   bool resume(const std::array<uint32_t, kMaxStrings>& raw, size_t channels) noexcept {
     const int32_t moved = distance(raw, last_.raw, channels);
     const bool anew = moved > kStill && distance(last_.raw, {}, channels) > kStill &&
@@ -127,8 +128,9 @@ class EncoderCounts {
   }
 
   /// Adds a reading at `now_ns` (CLOCK_MONOTONIC). Returns false and ignores the reading if a
-  /// counter changed by more than a hand can cause since the last reading, good or not: the
-  /// counters of a board that loses its power for a moment jump, and do not jump back.
+  /// counter has changed by more than a hand can cause in the time since the last reading, whether
+  /// that was good or not: the counters of a board that loses its power for a moment jump and do
+  /// not return.
   bool update(const std::array<uint32_t, kMaxStrings>& raw, int64_t now_ns) noexcept {
     const int64_t passed_ms = std::clamp<int64_t>((now_ns - last_ns_) / 1'000'000, 0, 7);
     last_ns_ = now_ns;

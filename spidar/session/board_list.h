@@ -40,9 +40,10 @@ struct AutoDevice {
 ///
 /// `profile` is the profile that the user names now, or empty. It applies only to the board for
 /// which it was confirmed or, if there is just one board with strings, to that board. Boards
-/// without a confirmed profile, and boards that were confirmed for another one than `profile`, come
-/// after the others with strings, with `why_not`. Devices on USB that must be named to be used come
-/// last, also with `why_not`. Opens nothing, so a listed device may be in use or forbidden.
+/// without a confirmed profile, and boards for which another profile than `profile` was confirmed,
+/// come after the other boards with strings, with `why_not`. Devices on USB that are used only by
+/// name come last, also with `why_not`. Opens nothing, so a listed device may be in use or
+/// forbidden.
 std::vector<AutoDevice> auto_devices(const std::string& profile = {});
 
 /// Whether two profiles have the same name or are the same file.

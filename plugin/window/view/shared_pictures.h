@@ -17,8 +17,8 @@
 namespace spidar::window {
 
 /// Pictures in the memory that a player shares with its window: slots of one size for frames of one
-/// format, in a file without a name. copy() takes a slot, which is free again when the window has
-/// returned it. Thread-safe only where stated.
+/// format, in a file without a name. acquire() reserves a slot, which is free again when the window
+/// has returned it. Thread-safe only where stated.
 class PictureSlots {
  public:
   /// As many pictures as a window keeps: the waiting ones, the shown one, and the next one.

@@ -73,11 +73,12 @@ class StickPosition {
   int64_t shown_ns_ = 0;
 };
 
-/// Exchanges are faster than updates, so a failed update is reported to one exchange only: the
-/// haptic loop gives up a device after 20 faults in a row, and a single failed update of a slow
-/// driver would last that long. Every exchange reports a fault when kFailures updates have failed
-/// in a row, or none has ended for kTimeout_ns because the driver does not return. The device
-/// holds its last force meanwhile, so the loop must not take the device for a healthy one.
+/// Converts the results of updates to faults of exchanges. Exchanges are faster than updates. If
+/// every exchange during a failed update of a slow driver reported the fault, there could be 20
+/// faults in a row, after which the haptic loop gives the device up; so only one exchange does. But
+/// when kFailures updates have failed in a row, or none has ended for kTimeout_ns because the
+/// driver does not return, every exchange reports a fault: the device holds its last force
+/// meanwhile, and must not seem healthy.
 ///
 /// The thread of the updates calls finish(); the thread of the exchanges calls everything else.
 class UpdateWatch {
