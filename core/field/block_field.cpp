@@ -177,8 +177,9 @@ namespace {
 using Eigen::Vector2f;
 using Eigen::Vector2i;
 
-/// A block is lost if its difference from the best match exceeds this fraction of its contrast, the
-/// difference from its own mean: the match shows something else.
+/// The contrast of a block is its difference from its own mean. If the difference from the best
+/// match exceeds this fraction of the contrast, the match shows something else, and the block is
+/// lost.
 constexpr double kFoundElsewhere = 0.5;
 /// The fraction of the textured blocks that are lost at a cut.
 constexpr double kLostAtCut = 0.8;
@@ -276,9 +277,9 @@ void BlockField::measure_noise() {
 }
 
 /// After a cut, the best matches are doubtful on average, and nearly all textured blocks are lost.
-/// In a moving picture, however fast, some blocks still match. The difference of the best
-/// ones is taken as noise, up to kMaxNoise_grey. A difference contains the noise of both pictures,
-/// a contrast that of one picture.
+/// In a moving picture, however fast it moves, some blocks still match. The difference of the best
+/// ones counts as noise, up to kMaxNoise_grey. A difference contains the noise of two pictures, but
+/// a contrast contains that of one.
 bool BlockField::is_cut() {
   int64_t between = 0;
   for (const BlockMatch& match : matches_) between += match.difference;

@@ -80,8 +80,8 @@ class BlockField {
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
-  /// Noise of the two pictures, grey²: the residual below which a third of the blocks lie, those
-  /// that their motion explains best.
+  /// Noise of the two pictures, grey²: the residual that a third of the blocks, those which their
+  /// motion explains best, do not exceed.
   float noise_grey2() const { return noise_grey2_; }
   /// The side of a pixel of the picture, in pixels of the base.
   double scale() const { return pixels_to_one(scale_); }
@@ -117,8 +117,8 @@ class BlockField {
   /// blocks stand still because the last picture is repeated.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
   /// How much less the cells of a block differ from the picture `back` pictures ago if the block
-  /// has come from `from_px` away than if it has stayed in place; positive where it has moved. No
-  /// result if it would have come from outside the picture.
+  /// has come from `from_px` away than if it has stayed in place; positive if it has moved. Returns
+  /// nothing if the block would have come from outside the picture.
   std::optional<int> cell_difference_gain(size_t block, int back,
                                           const Eigen::Vector2i& from_px) const;
 

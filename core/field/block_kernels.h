@@ -97,12 +97,12 @@ BlockSums compare_blocks(BlockPixels now, BlockPixels before);
 /// The same over the pixels that count, see block_difference().
 BlockSums compare_blocks(BlockPixels now, BlockPixels before, BlockPixels counted);
 
-/// Compares a block `now` with the same position in the picture `before`. `from` is the position in
-/// that picture from which the surrounding motion would have brought the block; `to` is the
-/// position in the new picture to which that motion would have brought the block that was in this
-/// place. The larger of the two differences counts: something that stays in front of a moving
-/// background reveals itself both where it should have been covered and where it should have been
-/// uncovered. Reads one extra column and row of `from` and `to`.
+/// Compares a block `now` with the same position in the picture `before`. If the block had moved
+/// with its surroundings, it would have come from `from` in that picture, and what was in its place
+/// would have gone to `to` in the new picture. The larger of the two differences counts: something
+/// that stays in front of a moving background shows both where the background should have covered
+/// it and where it should have uncovered the background. Reads one extra column and row of `from`
+/// and `to`.
 StayingPixels staying_pixels(BlockPixels now, BlockPixels before, const MovedBlock& from,
                              const MovedBlock& to);
 }  // namespace spidar

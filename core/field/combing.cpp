@@ -16,8 +16,8 @@ namespace {
 /// within kSame_grey on the line after. Noise of σ = 5 grey levels does so in 2 of 100 000 pixels.
 constexpr int kComb_grey = 20;
 constexpr int kSame_grey = kComb_grey / 2;
-/// A frame counts as combed from this fraction of its pixels on: an object on 5 % of the frame,
-/// with combs on one of its pixels in ten.
+/// A frame counts as combed if at least this fraction of its pixels shows combs: as many as an
+/// object on 5 % of the frame has with combs on one of its pixels in ten.
 constexpr double kCombed = 0.005;
 /// For how many frames a film counts as interlaced after a combed frame: ten seconds at 24
 /// frames/s, because parts of a film are still.
@@ -25,7 +25,7 @@ constexpr int kFrames = 240;
 
 constexpr int kLines = 4;
 /// Of this many lines of the frame, kLines are examined, to save time. Every block covers at least
-/// this many lines, so a part of it is examined.
+/// this many lines, so a part of every block is examined.
 constexpr int kEvery = kBlock_px;
 
 /// Pixels are compared in vectors. The padding of the last one shows no comb: all lines have 0.

@@ -141,7 +141,7 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
 /// on return, px of the frame. Returns false if the window is lost.
 bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px) {
   const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
-  // The motion is not finite, or leads outside of any frame.
+  // Reject a motion that is not finite, or leads outside of any frame.
   if (!(whole_px.cwiseAbs().maxCoeff() < frame.width + frame.height)) return false;
   const int left = window.left_px + static_cast<int>(whole_px.x()) - kReach_px;
   const int top = window.top_px + static_cast<int>(whole_px.y()) - kReach_px;

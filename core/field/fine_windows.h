@@ -31,9 +31,9 @@ struct FineMotion {
 /// Measures in the frame itself how parts of some blocks move. Keeps a small window of the frame
 /// for each of these blocks, and finds it in the next frame by Gauss–Newton steps from the motion
 /// of its block (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004).
-/// The motion of a block is accurate to a tenth of a pixel of the reduced picture; the frame has
-/// more pixels, and a second step removes the error of the first one. Allocates only for the first
-/// frame.
+/// The motion of a window is more accurate than that of a block, which is right to a tenth of a
+/// pixel of the reduced picture: the frame has more pixels, and a second step removes the error of
+/// the first one. Allocates only for the first frame.
 class FineWindows {
  public:
   FineWindows();
@@ -54,7 +54,7 @@ class FineWindows {
  private:
   /// Side of a window, px of the frame. It covers a block of a small frame, less of a large one.
   static constexpr int kSide_px = kBlock_px;
-  /// How far a window may be from where the motion of its block leads, px of the frame.
+  /// The largest distance of a window from the position predicted by its block, px of the frame.
   static constexpr int kReach_px = 2;
   static constexpr int kPixels = kSide_px * kSide_px;
 

@@ -13,10 +13,10 @@ namespace spidar {
 /// The "1 €" filter of a vector (Casiez, Roussel and Vogel: 1 € Filter: A Simple Speed-based
 /// Low-pass Filter for Noisy Input in Interactive Systems, CHI 2012, Algorithm 1 and 2): a
 /// first-order low-pass whose cutoff rises with the rate of change, fc = fc_min + β |dx/dt|. Slow
-/// changes are smoothed, fast ones hardly delayed. Here |dx/dt| is that of the whole vector, so
-/// that the result does not depend on the directions of the axes. Unlike in the paper, the rate of
-/// change is low-passed as a magnitude, without its direction: in a motion to and fro, directions
-/// would cancel, and the cutoff would fall where it must be high.
+/// changes are smoothed, fast ones hardly delayed. |dx/dt| is that of the whole vector, so that the
+/// result does not depend on the directions of the axes. Unlike in the paper, the magnitude of the
+/// rate of change is low-passed, not the vector: in a motion to and fro, opposite directions would
+/// cancel, and the cutoff would fall when it must be high.
 ///
 /// Samples may be any time apart: the smoothing factor is that of the backward Euler step, 1 / (1 +
 /// 1 / (2π fc Δt)). A ramp is delayed by 1 / (2π fc), whatever Δt.

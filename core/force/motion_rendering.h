@@ -38,12 +38,12 @@ inline Eigen::Vector4d reference_speeds_px_s(const ImageMotion& motion, const Ax
 
 /// The wrench for a motion in a frame of `frame_height` pixels, in the device frame D.
 ///
-/// The controller turns |u| of reference_speeds_px_s() into a force F, whose parts are proportional
-/// to u: the force is F (u₁, −u₂, u₃) / |u|, because y points down in the picture and up in the
-/// device; the torque about z, which points to the viewer, is −F kTorqueArm_m u₄ / |u|, because a
-/// clockwise turn on the screen turns from x to −y of the device. The force therefore never exceeds
-/// F, and the torque never exceeds F times the arm. `interval_s` is the running time since the
-/// previous frame, 0 if unknown.
+/// The controller converts |u| of reference_speeds_px_s() to a force F, which is distributed in
+/// proportion to u. The force is F (u₁, −u₂, u₃) / |u|, because y points down in the picture and up
+/// in the device. The torque about z, which points to the viewer, is −F kTorqueArm_m u₄ / |u|,
+/// because a clockwise turn on the screen turns from x to −y of the device. The force therefore
+/// never exceeds F, and the torque never exceeds F times the arm. `interval_s` is the running time
+/// since the previous frame, 0 if unknown.
 inline Wrench render_motion(GainController& controller, const ImageMotion& motion,
                             const AxisGains& gains, int frame_height, double interval_s = 0) {
   const Eigen::Vector4d u = reference_speeds_px_s(motion, gains, frame_height);

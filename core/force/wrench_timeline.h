@@ -43,27 +43,27 @@ struct TimelineResult {
 
 /// A short memory of timed wrenches. Interpolates, never extrapolates. Fixed size, no allocation.
 ///
-/// A cubic Hermite curve joins two wrenches: it is exact at their times, its slope is continuous
-/// there, and each component only rises or only falls, and so stays between its two values. Slopes
-/// are those of M. Steffen, "A simple method for monotonic interpolation in one dimension",
-/// Astronomy and Astrophysics 239 (1990), equation 11, if the following frame is known by the time
-/// that the curve towards a frame begins. Otherwise they are zero: waiting would be delay, and any
-/// other slope could overshoot the wrench of the following frame.
+/// A cubic Hermite curve joins two wrenches. The curve is exact at their times and has a continuous
+/// slope there. Each component only rises or only falls, and so stays between its two values. If
+/// the frame after a frame is known when the curve towards that frame begins, the slope at the
+/// frame is that of M. Steffen, "A simple method for monotonic interpolation in one dimension",
+/// Astronomy and Astrophysics 239 (1990), equation 11. Otherwise the slope is zero: to wait would
+/// cause a delay, and any other slope could overshoot the wrench of the following frame.
 ///
-/// A gap is an interval without frames that is long enough to ramp to zero and back. In a gap the
-/// wrench holds and expires as if the next frame were unknown; then it rises from zero to the
-/// wrench of the next frame before that frame is due: a still picture gives no force.
+/// A gap is an interval without frames that is long enough to ramp to zero and back. In a gap, a
+/// still picture gives no force: the wrench holds and expires as if the next frame were unknown,
+/// and rises from zero to the wrench of the next frame before that frame is due.
 class WrenchTimeline {
  public:
   static constexpr size_t kCapacity = 64;
-  /// A frame that becomes known late, less than approach_after() before its motion, is reached
-  /// approach_after() after it became known, because a step would be felt as a knock. To and from
-  /// zero, this takes kApproach_ns.
+  /// If a frame becomes known late, less than approach_after() before its motion, the curve reaches
+  /// it approach_after() after that, because a step would be felt as a knock. From zero and to
+  /// zero, the approach takes kApproach_ns.
   static constexpr int64_t kApproach_ns = 15'000'000;
   /// The duration of an approach as a fraction of the interval between two frames: the less often
-  /// pictures change, the more the force changes at once, and the longer that takes. A force that
-  /// changes during this fraction of the time has 1 / √kApproachFraction = 1.49 times the rms step
-  /// of one that changes all the time.
+  /// pictures change, the larger is the change of the force, and the longer it must take. A force
+  /// that changes during this fraction of the time has 1 / √kApproachFraction = 1.49 times the rms
+  /// step of a force that changes all the time.
   static constexpr double kApproachFraction = 0.45;
   /// No frame is reached later than this after its time, unless it became known too late. People
   /// notice a delay of touch from 50 ms on.
@@ -109,9 +109,9 @@ class WrenchTimeline {
   size_t size_after(int64_t time_ns) const noexcept;
 
  private:
-  /// The part of the curve that ends in a frame. A segment starts from the one before, which has
-  /// usually reached its own frame by then; a late frame's segment starts while the one before is
-  /// still under way, and bends away from it. After a gap a segment starts from zero.
+  /// The part of the curve that ends in a frame. A segment starts from the previous segment, which
+  /// has usually reached its own frame by then. The segment of a late frame starts before that, and
+  /// bends away from the previous segment. After a gap, a segment starts from zero.
   struct Segment {
     TimedWrench frame;
     int64_t from_ns = 0;

@@ -20,11 +20,10 @@ struct SingularValues {
 /// file that includes Eigen's decomposition takes up to ten seconds longer to compile.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
-/// Solves a symmetric positive definite system of a few unknowns, picked out of a larger matrix, in
-/// the 1 kHz loop: M y = b, where M consists of the `count` ≤ 8 rows and columns `index`
-/// (ascending) of Q, of which only the upper triangle is read, and b = rhs[index]. The diagonal of
-/// M is multiplied by 1 + damping. M = LDLᵀ without pivoting. Returns false when rounding has
-/// cancelled a pivot: y is then invalid.
+/// Solves a symmetric positive definite system M y = b of a few unknowns in the 1 kHz loop. M
+/// consists of the `count` ≤ 8 rows and columns `index` (ascending) of Q, and b = rhs[index]. Reads
+/// only the upper triangle of Q. The diagonal of M is multiplied by 1 + damping. M = LDLᵀ without
+/// pivoting. Returns false when rounding has cancelled a pivot; y is then invalid.
 template <int kSize>
 bool solve_ldlt(int count, const Eigen::Matrix<double, kSize, kSize>& Q, double damping,
                 const int* index, const double* rhs, double* y) noexcept {

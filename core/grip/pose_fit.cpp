@@ -24,8 +24,9 @@ constexpr double kLongestStep_m = 0.02;
 // Near the walls of the frame, wrong minima have residuals down to 20 µm; at the right one,
 // quantisation leaves some 3 µm. Above this limit, all starts are tried and the best fit wins.
 constexpr double kSureResidual_m = 10e-6;
-// Over the SPIDAR-G6X3's box the other pose is turned by 0.7 to 1.7 rad times the smallest singular
-// value (rotations scaled by the grip radius), and the ridge between them is half way.
+// In the box of the SPIDAR-G6X3, the two poses differ by a rotation of 0.7 to 1.7 rad times the
+// smallest singular value (rotations scaled by the grip radius), and the ridge between them is half
+// way.
 constexpr double kBesideStep = 1.5;
 // A smaller distance is the same minimum: searches end within some steps of kLastSearchStep_m.
 constexpr double kSamePose_m = 1e-6;

@@ -74,15 +74,16 @@ struct PoseResult {
 /// Limits of what the lengths determine:
 /// - Near the walls of the frame, where the structure matrix is nearly singular, two poses can have
 ///   lengths that differ by less than the measurement error. locate() looks for a second pose and
-///   reports kAmbiguous; track() stays with the pose that continues the motion.
+///   reports kAmbiguous; track() returns the pose that continues the motion.
 /// - Eight strings have two redundant lengths, so a fault shows in two numbers only. A fault that a
-///   wrong pose of the other seven strings explains is detected only when the grip moves on. Two
-///   strings whose faults have the same effect are told apart by the motion and by frozen counts.
-/// - Two dead encoders leave too few strings: once frozen counts reveal them, no pose is returned.
+///   wrong pose of the other seven strings explains is detected only when the grip moves on. If the
+///   faults of two strings would have the same effect, the motion and frozen counts show which one
+///   is faulty.
+/// - Two dead encoders leave too few strings. Once frozen counts reveal them, no pose is returned.
 class PoseSolver {
  public:
-  /// A larger residual means that the solution is wrong: a local minimum or a bad length. The error
-  /// of a count is at most half an encoder step, and so is the residual of the right pose: 17.4 µm
+  /// A larger residual means that the solution is wrong: a local minimum or a bad length. Neither
+  /// the error of a count nor the residual of the right pose exceeds half an encoder step, 17.4 µm
   /// for the coarsest encoder of the known devices.
   static constexpr double kMaxResidual_m = 20e-6;
 
@@ -95,9 +96,10 @@ class PoseSolver {
   static double least_stiffness(const StringGeometry& geometry);
 
   /// Throws std::invalid_argument when the geometry has fewer than six strings, when all of them
-  /// end in the grip's origin, when it has less than kMinStiffness, or when `max_residual_m` is not
-  /// positive. `max_residual_m` is one encoder step, or more for a device whose geometry is known
-  /// less well; a fault shows when a length is off by about six times as much.
+  /// end in the grip's origin, when its least_stiffness() is below kMinStiffness, or when
+  /// `max_residual_m` is not positive. `max_residual_m` is one encoder step, or more for a device
+  /// whose geometry is known less well; a fault shows when a length is off by about six times as
+  /// much.
   explicit PoseSolver(const StringGeometry& geometry, double max_residual_m = kMaxResidual_m);
 
   /// To be called on every tick. Calls track(), then locate() if tracking fails or leads away from

@@ -55,14 +55,15 @@ struct TensionObjective {
 
 constexpr int kStrings = kMaxStrings;
 
-// A smaller violation of the optimality conditions counts as none, relative to the terms of the
-// gradient, which itself is rounded to some 1e-15 of them.
+// A violation of the optimality conditions below this fraction of the terms of the gradient counts
+// as none, because rounding alone changes the gradient by some 1e-15 of these terms.
 constexpr double kTolerance = 2e-14;
 // The largest violation that still counts as a solution when rounding prevents a smaller one.
 constexpr double kAccepted = 1e-12;
 constexpr int kMaxIterations = 24;
-// A string leaves its bound when its gradient is this fraction of the largest one among the strings
-// that should leave: one at a time takes more rounds, all at once sends some of them back.
+// A string leaves its bound when its gradient is at least this fraction of the largest one among
+// the strings that should leave. If strings left one at a time, more rounds would be needed; if all
+// left at once, some would return.
 constexpr double kReleaseFraction = 0.4;
 // Added to the diagonal (as a fraction of it) when rounding loses ε beside it; rises until the
 // pivots are sound.
@@ -248,9 +249,9 @@ class Search {
       violation = violation_of.maxCoeff();
       scale = objective_.gradient_scale(x_->t);
       if (violation <= kTolerance * scale) return;
-      // After a rejected step, strings are released only at the minimum over the free ones, and one
-      // at a time. Such a string does move inwards, so that every release lowers the objective and
-      // no set of free strings comes twice: the search ends.
+      // After a rejected step, strings are released only at the minimum over the free strings, and
+      // one at a time. Such a string moves inwards, so every release lowers the objective, no set
+      // of free strings occurs twice, and the search ends.
       if (cautious && clipped && x_->free) continue;
       x_->free |= strings_to_release(*x_, violation_of, cautious ? 1.0 : kReleaseFraction);
       cautious = false;
@@ -304,7 +305,8 @@ TensionResult TensionSolver::solve(const TensionProblem& problem) noexcept {
   const Bounds bounds{problem.t_min_N, problem.t_max_N};
   TensionResult result;
   if (is_valid(problem, objective, bounds)) {
-    // Without a pull, the tolerance shrinks with the tensions: a warm start might never meet it.
+    // Without a pull, the tolerance shrinks with the tensions, and a warm start might never meet
+    // it.
     const bool warm = warm_ && objective.has_pull();
     Search search(objective, bounds, warm ? last_N_ : problem.t_ref_N);
     if (!warm) search.free_all();

@@ -35,9 +35,9 @@ struct TensionResult {
   StringVector tension_N = StringVector::Zero();
   Wrench delivered;       ///< W t
   double residual_N = 0;  ///< ‖S(W t − f)‖
-  /// The largest violation of the optimality conditions, that is of Q t = c for free strings and of
-  /// its sign for those at a bound, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|; Q and c as in
-  /// TensionObjective in tension_solver.cpp. kSolved means 1e-12 or less.
+  /// The largest violation of the optimality conditions, relative to the largest Qᵢᵢ|tᵢ| + |cᵢ|.
+  /// The conditions are Q t = c for free strings, and the sign of Q t − c for strings at a bound,
+  /// with Q and c as in TensionObjective in tension_solver.cpp. kSolved means 1e-12 or less.
   double kkt_residual = 0;
   int iterations = 0;  ///< at most 24
   TensionStatus status = TensionStatus::kBadInput;

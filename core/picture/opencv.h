@@ -27,12 +27,12 @@ inline cv::Mat const_mat(const ImageView& view) {
 
 /// Runs `work` so that OpenCV functions in it stay on the calling thread.
 ///
-/// The streaming thread shares the machine with a decoder and the 1 kHz loop. With the tracker's
-/// small pictures, a second thread saves less than a millisecond per frame and takes a core away
-/// from them. A library should not call cv::setNumThreads(), which affects the whole process.
-/// OpenCV does not split a parallel_for_ inside another one, so the work runs inside a single
-/// stripe. As the only side effect, parallel loops that other threads start in the meantime are not
-/// split either.
+/// The streaming thread shares the machine with a decoder and the 1 kHz loop. A second thread would
+/// take a core away from these and, with the tracker's small pictures, save less than a millisecond
+/// per frame. A library should not call cv::setNumThreads(), which affects the whole process.
+/// OpenCV does not split a parallel_for_ inside another one, so this function runs the work as the
+/// single stripe of a parallel_for_. The only side effect is that parallel loops of other threads
+/// are not split either in the meantime.
 template <typename Work>
 void run_on_this_thread(Work&& work) {
   cv::parallel_for_(cv::Range(0, 1), [&work](const cv::Range&) { work(); });

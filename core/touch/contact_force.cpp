@@ -54,7 +54,7 @@ void validate(const ContactSettings& s) {
 }
 
 void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
-  // The two poses are those of the exchanges that ended the two ticks before.
+  // The two poses were read in the exchanges that ended the last two ticks.
   const double way_s = before_s_ > 0 ? before_s_ : dt_s;
   if (started_ && way_s > 0) {
     const double turns = 2 * M_PI * kVelocityCutoff_Hz * way_s;

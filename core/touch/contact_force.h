@@ -55,9 +55,9 @@ class ContactForce {
   static constexpr double kMaxTexture_N = 1;
 
   /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. The grip
-  /// was at `grip_m` in the exchange of that tick. It is zero without contact and never pulls the
-  /// grip into the surface. `texture` holds heights whose slope is rendered, or is null. The
-  /// settings must be valid. Neither allocates nor throws.
+  /// was at `grip_m` in the exchange of that tick. The force is zero without contact and never
+  /// pulls the grip into the surface. `texture` has heights whose slope is rendered, or is null.
+  /// The settings must be valid. Neither allocates nor throws.
   Eigen::Vector3d tick(const MovingRelief& surface, const HeightField* texture,
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;

@@ -41,12 +41,12 @@ void validate(const DepthSettings& settings);
 /// the size changes. Reads at most four evenly spaced samples per cell, so that the cost does not
 /// grow with the size.
 ///
-/// An end of the range that is not set is a percentile of the cells: 2 % of them are nearer than
-/// near, 2 % farther than far. Both ends follow the pictures with a time constant of kRange_s, so
-/// that the relief does not pump when something passes in front of the camera. They jump when more
-/// than half of the cells lie outside the range, as after a cut, or when the settings change. The
-/// range is never narrower than 1/16 of its larger end or 8 samples, so that noise on a flat wall
-/// does not become relief.
+/// An end of the range that is not set is estimated as a percentile of the cells: 2 % of them are
+/// nearer than the near end, and 2 % are farther than the far end. Both ends follow the pictures
+/// with a time constant of kRange_s, so that the relief does not pump when something passes in
+/// front of the camera. They jump when more than half of the cells lie outside the range, as after
+/// a cut, or when the settings change. The range is never narrower than 1/16 of its larger end or 8
+/// samples, so that noise on a flat wall does not become relief.
 class DepthPicture {
  public:
   static constexpr int kSamplesAcross = 2;  ///< largest number per cell, in x and in y

@@ -25,12 +25,12 @@ struct SurfacePoint {
 /// at the centre of its cell.
 ///
 /// The surface is the uniform cubic B-spline with the samples as its coefficients (C. de Boor, A
-/// Practical Guide to Splines). Its height, slope and curvature are continuous. It does not pass
-/// through the samples but smooths them, so that it is never above the highest or below the lowest
-/// of them, and dz/dx is never steeper than the steepest step between two neighbours of a row
+/// Practical Guide to Splines). Its height, slope and curvature are continuous. The surface smooths
+/// the samples and does not pass through them. It is never above the highest sample or below the
+/// lowest one, and dz/dx is never steeper than the steepest step between two neighbours of a row
 /// (dz/dy: of a column). A plane is reproduced exactly; elsewhere the surface differs from the
-/// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture the border heights continue
-/// with zero slope across the border.
+/// samples by cell²/6 · d²z/dx², and likewise in y. Outside the picture, the border heights
+/// continue with zero slope across the border.
 class HeightField {
  public:
   static constexpr int kColumns = 256;

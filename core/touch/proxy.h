@@ -37,12 +37,13 @@ struct MovingRelief {
 /// environments, SIGGRAPH 1997). A spring between the two generates the contact force.
 ///
 /// A step of the proxy never lengthens that spring: a step along the tangent plane is accepted only
-/// if it ends closer to the grip, otherwise half of it is tried. Steps therefore store no energy,
-/// unlike methods that only follow the tangent plane and climb at creases.
+/// if it ends closer to the grip; otherwise half the step is tried. Steps therefore store no
+/// energy, unlike in methods that only follow the tangent plane, in which the proxy climbs at
+/// creases.
 ///
-/// A surface can jump because of a cut, because playback starts with the grip below it, or because
-/// it moves faster than kFastest_m_s. It is then shifted to the grip and moves to its true height
-/// at kRise_m_s, so cuts need not be signalled.
+/// A surface can jump because of a cut, because playback starts with the grip below the surface, or
+/// because the surface moves faster than kFastest_m_s. The surface is then shifted to the grip and
+/// moves to its true height at kRise_m_s, so cuts need not be signalled.
 class Proxy {
  public:
   /// The coefficient of kinetic friction of most surfaces, as a fraction of the static one.
@@ -65,7 +66,7 @@ class Proxy {
   const Eigen::Vector3d& position_m() const noexcept { return position_m_; }
   /// Surface normal at the proxy, towards the viewer. Valid only while touching.
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
-  /// Height by which the surface is currently shifted: > 0 above its true height, < 0 below it.
+  /// How far the surface is shifted now: > 0 above its true height, < 0 below that.
   double shift_m() const noexcept { return shift_m_; }
   /// Change of the squared distance between proxy and grip in this tick that is due to the motion
   /// of the surface: 2 / stiffness times the energy which that motion put into the spring.

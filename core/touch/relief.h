@@ -26,9 +26,10 @@ void validate(const ReliefSettings& settings);
 ///
 /// The slope of the surface is limited to kMaxSlope: exactly along rows and columns, and within one
 /// part in a thousand across a straight edge in any other direction. A steeper edge keeps its top
-/// and gets a ramp at its foot: each height becomes the maximum of (height of any cell − slope ·
-/// distance to it), found in two passes over the picture with the distances of the eight neighbours
-/// (G. Borgefors, Distance transformations in digital images, CVGIP 34, 1986).
+/// and gets a ramp at its foot: the new height of a cell is the maximum, over all cells, of their
+/// height − slope · distance. Two passes over the picture with the distances of the eight
+/// neighbours find that maximum (G. Borgefors, Distance transformations in digital images, CVGIP
+/// 34, 1986).
 class ReliefBuilder {
  public:
   static constexpr double kMaxSlope = 1.5;

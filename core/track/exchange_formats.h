@@ -61,10 +61,11 @@ constexpr double kMinGain = 1e-3, kMaxGain = 1e6;
 constexpr double kAhapTolerance = 0.02;
 
 /// Writes a vibration as strong as the force: a continuous event whose intensity is the magnitude
-/// of the force as a fraction of the full scale, along straight lines that differ from it by at
-/// most `tolerance`, and half of 1e-3. A telephone has neither directions nor torque, so both are
-/// lost. Magnitudes beyond the full scale are clipped, and NaN becomes 0. The description states
-/// the force of an intensity of 1, if the samples have been multiplied by `gain`.
+/// of the force as a fraction of the full scale. The intensity follows straight lines, which differ
+/// from that magnitude by at most `tolerance`, and half of 1e-3. A telephone has neither directions
+/// nor torque, so both are lost. Magnitudes beyond the full scale are clipped, and NaN becomes 0.
+/// The description states the force of an intensity of 1, if the samples have been multiplied by
+/// `gain`.
 ///
 /// Source: Apple, "Representing haptic patterns in AHAP files", and CHHapticEvent.duration: an
 /// event lasts 30 s at most. Users report that only the first 16 points of a curve are used.
