@@ -184,7 +184,7 @@ bool BurnedIn::stays_beside(const BlockField& field, const Block& block) const {
     return are_graphics(field.staying_pixels(block.index, block.background_px, {x_px, y_px}),
                         kExactElsewhere);
   };
-  return stays(-kBesideBlock_px, 0) || stays(kBeside_px, 0) || stays(0, -kBeside_px) ||
+  return stays(-kBesideBlock_px, 0) || stays(kBesideBlock_px, 0) || stays(0, -kBesideBlock_px) ||
          stays(0, kBesideBlock_px);
 }
 
