@@ -116,7 +116,7 @@ def write_physio(path, haptic_trace):
 def write_runs(answers, participant, label, folder, trials):
     """The recordings of what counts. `trials`: an answer of each, by number."""
     for shown in read_rows(f"{answers}.presentations"):
-        trial = trials.get(int(shown["trial"]))
+        trial = trials.get(int(shown["trial"])) if shown["trial"].isdigit() else None
         trace = Path(f"{answers}.traces/{shown['trace']}.haptic.csv")
         if shown["participant"] != participant or shown["problem"] or not trial or not trace.exists():
             continue

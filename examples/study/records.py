@@ -38,6 +38,9 @@ COLUMNS = [field.name for field in fields(Answer)]
 PARTICIPANT_COLUMNS = ["participant", "index", "time_utc"]
 THRESHOLD_COLUMNS = ["participant", *THRESHOLDS, "trials", "time_utc"]  # empty where not asked, or the answers did not settle
 PRESENTATION_COLUMNS = ["participant", "trial", "trace", "delivered_fraction", "problem", "time_utc"]
+# Of each table, what cannot be missing.
+NEEDED = {".participants": ["participant", "index"], ".presentations": PRESENTATION_COLUMNS[:5], ".thresholds": ["participant"],
+          ".briefings": ["participant", "check", "answer"], ".exports": ["folder", "time_utc"]}
 
 
 def append_row(answers, table, header, row):
@@ -135,11 +138,25 @@ def read_merged(paths):
 
 
 def read_rows(path):
-    """Rows by the names of their columns; none if there is no such file."""
+    """Rows by the names of their columns; none if there is no such file. Raises ValueError that names file, line and what is
+    wrong."""
     if not Path(path).exists():
         return []
+    rows = []
     with open(path, encoding="utf-8", newline="") as file:
-        return list(csv.DictReader(file))
+        reader = csv.reader(file)
+        try:
+            columns = next(reader, [])
+            missing = set(NEEDED.get(Path(path).suffix, ())) - set(columns)
+            if columns and missing:
+                raise ValueError(f"there is no column {', '.join(sorted(missing))}")
+            for values in filter(None, reader):
+                if len(values) != len(columns):
+                    raise ValueError(f"{len(values)} columns, not {len(columns)}")
+                rows.append(dict(zip(columns, values)))
+        except (ValueError, csv.Error) as error:
+            raise ValueError(f"{path}:{reader.line_num or 1}: {error}") from error
+    return rows
 
 
 class Participants:
@@ -148,6 +165,9 @@ class Participants:
     def __init__(self, answers):
         self.answers, self.path = Path(answers), f"{answers}.participants"
         self.rows = read_rows(self.path)
+        for row in self.rows:
+            if not row["index"].isdigit():
+                raise ValueError(f'{self.path}: "{row["index"]}" of {row["participant"]} is not a whole number')
 
     def index_of(self, participant):
         taken = {row["participant"]: int(row["index"]) for row in self.rows}

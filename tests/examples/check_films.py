@@ -10,7 +10,7 @@ import sys
 import tempfile
 import wave
 
-from check_player import make_sound
+from check_player import bad_films
 
 
 def check(program, name, reason):
@@ -77,16 +77,9 @@ def check_window_png(play, folder):
 
 def main():
     with tempfile.TemporaryDirectory() as folder:
-        empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
-        for name, content in (empty, ""), (text, "no film\n" * 100):
-            with open(name, "w") as file:
-                file.write(content)
         for program in sys.argv[1:]:
             command = [program, "--headless"] if os.path.basename(program) == "play" else [program]
-            for name, reason in [(os.path.join(folder, "none.avi"), "not found.*No such file"),
-                                 (folder, "[Dd]irectory"), (empty, "empty|no data"), (text, "text file"),
-                                 (make_sound(folder), "no video"),
-                                 ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*does its host answer")]:
+            for name, reason in [*bad_films(folder), ("http://127.0.0.1:1/film.mp4", "127.0.0.1.*does its host answer")]:
                 check(command, name, reason)
             if os.path.basename(program) == "play":
                 check_properties(program)

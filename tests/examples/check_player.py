@@ -48,6 +48,16 @@ def make_sound(folder):
     return file
 
 
+def bad_films(folder):
+    """Names that no player can play, and what is said of them."""
+    empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
+    for name, content in (empty, ""), (text, "no film\n" * 100):
+        with open(name, "w") as file:
+            file.write(content)
+    return [(os.path.join(folder, "none.avi"), "[Nn]o such file|not found"), (folder, "folder|[Dd]irectory"),
+            (empty, "empty|no data"), (text, "text file"), (make_sound(folder), "no video")]
+
+
 def run(program, file, keys):
     done = subprocess.run([*program, "--headless", file], input=keys, text=True,
                           capture_output=True, timeout=60)
@@ -70,14 +80,7 @@ def check(program):
 
 def check_refused(program, folder):
     """What is no film is named, with what is wrong with it, and the player says so to its caller."""
-    empty, text = (os.path.join(folder, name) for name in ("empty.avi", "text.avi"))
-    for name, content in (empty, ""), (text, "no film\n" * 100):
-        with open(name, "w") as file:
-            file.write(content)
-    for name, reason in [(os.path.join(folder, "none.avi"), "no such file|not found"),
-                         (folder, "folder|directory"), (empty, "empty|no data"),
-                         (text, "text file"), ("nothing://here", "No URI handler"),
-                         ("--unknown", "FILE-OR-URI"), (make_sound(folder), "no video"),
+    for name, reason in [*bad_films(folder), ("nothing://here", "No URI handler"), ("--unknown", "FILE-OR-URI"),
                          ("http://127.0.0.1:1/film.mp4", r"\(.+\)|refused")]:
         code, _, errors = run(program, name, "")
         assert code != 0, name

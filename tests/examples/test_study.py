@@ -192,6 +192,14 @@ class File(InFolder):
                 records.read_answers(self.path)
         self.path.write_text(header + good)
         self.assertEqual(len(records.read_answers(self.path)), 1)
+        for table, content, message in [
+                (".presentations", "participant,trial\n", ":1: there is no column delivered_fraction, problem, trace"),
+                (".briefings", "participant,check,answer\nP1,consent\n", ":2: 2 columns, not 3"),
+                (".exports", 'folder,time_utc\n"/a"b",now\n' + "x" * 200000 + ",now\n", ":3: field larger than"),
+                (".participants", "participant,index\nP1,first\n", ': "first" of P1 is not a whole number')]:
+            Path(f"{self.path}{table}").write_text(content)
+            with self.assertRaisesRegex(ValueError, re.escape(f"{self.path}{table}{message}")):
+                records.Participants(self.path) if table == ".participants" else records.read_rows(f"{self.path}{table}")
 
 
 class Repeated(InFolder):
@@ -365,7 +373,7 @@ class Perception(unittest.TestCase):
             now_ns = time.monotonic_ns()
             square.move(told_ns.append)
             square.pipeline.get_by_name("source").emit("end-of-stream")
-            square.pipeline.bus.timed_pop_filtered(10 * clip_player.Gst.SECOND, clip_player.Gst.MessageType.EOS)
+            square.pipeline.bus.timed_pop_filtered(60 * clip_player.Gst.SECOND, clip_player.Gst.MessageType.EOS)
             base_ns = square.pipeline.get_base_time()
         moved = next(pts for (pts, picture), (_, before) in zip(shown[1:], shown) if picture != before)
         frame_ns = 1e9 / moving_square.FRAMES_S
@@ -381,7 +389,7 @@ class Perception(unittest.TestCase):
 
 class Noise(unittest.TestCase):
     def test_plays_until_the_session_ends_unless_it_is_turned_off(self):
-        state = lambda pipeline: pipeline.get_state(5 * clip_player.Gst.SECOND)[1]
+        state = lambda pipeline: pipeline.get_state(60 * clip_player.Gst.SECOND)[1]
         for volume, expected in (0.1, clip_player.Gst.State.PLAYING), (0, clip_player.Gst.State.NULL):
             with clip_player.noise(volume, "headless") as pipeline:
                 self.assertEqual(state(pipeline), expected)

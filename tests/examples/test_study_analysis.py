@@ -21,7 +21,7 @@ FOLDER = sys.argv.pop(1) if len(sys.argv) > 1 else "examples/study"
 sys.path.insert(0, FOLDER)
 
 import numpy as np  # noqa: E402
-from scipy.stats import binom, norm, ttest_1samp  # noqa: E402
+from scipy.stats import norm, ttest_1samp  # noqa: E402
 
 import briefing  # noqa: E402
 import chain  # noqa: E402
