@@ -1,18 +1,22 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""A simple player without any knowledge of haptics: feel_player.py PLAYBIN FILM STEP... PLAYBIN is playbin or playbin3.
-Steps are
+"""A simple player, of which only its tests know that it is felt: feel_player.py PLAYBIN FILM STEP... PLAYBIN is playbin
+or playbin3. Steps are
   own-filter, own-sink    uses a video-filter, or a sink with spidarmotion device=none, of its own
   window                  uses a sink that accepts what a window accepts, without a converter
   preroll, play, pause, ready, stop, seek (to the beginning)
   other                   uses a second player from now on
   frames=N, wait=MS       waits until N more frames were shown; for MS milliseconds
+  felt=TRACE, rest=TRACE  waits until the haptic trace has a force that plays, however often the film must begin again for
+                          that, or the newest tick has none
+  forget=TRACE            removes the trace
   end                     waits for the end of the film, and prints how many frames were shown and a checksum of them
   loaded                  prints whether the plugin is in this process
   stay, exit              waits for ever; exits without stopping"""
 
 import ctypes
 import hashlib
+import os
 import signal
 import sys
 import time
@@ -21,6 +25,8 @@ import gi
 
 gi.require_version("Gst", "1.0")
 from gi.repository import Gst
+
+from haptic_trace import largest_N, read_trace
 
 STATES = {"preroll": Gst.State.PAUSED, "play": Gst.State.PLAYING, "pause": Gst.State.PAUSED, "ready": Gst.State.READY,
           "stop": Gst.State.NULL}
@@ -102,6 +108,15 @@ def main(name, film, *steps):
             until = frames_shown + int(number)
             while frames_shown < until:
                 time.sleep(.001)
+        elif word == "felt":
+            while largest_N([tick for tick in read_trace(number) if tick[3]]) < .1:
+                if player.pipeline.get_bus().timed_pop_filtered(10 * Gst.MSECOND, Gst.MessageType.EOS):
+                    player.pipeline.seek_simple(Gst.Format.TIME, Gst.SeekFlags.FLUSH, 0)
+        elif word == "rest":
+            while any(force or playing for _, _, force, playing in read_trace(number)[-1:]):
+                time.sleep(.01)
+        elif word == "forget":
+            os.unlink(number)
         elif word == "wait":
             time.sleep(int(number) / 1000)
         elif word == "loaded":
