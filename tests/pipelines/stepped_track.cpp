@@ -96,7 +96,7 @@ void SteppedTrack::set_state(GstState state) {
   if (!sender_.joinable()) send();
   const GstStateChangeReturn result = gst_element_set_state(pipeline_, state);
   if (result == GST_STATE_CHANGE_ASYNC) {
-    gst_element_get_state(pipeline_, nullptr, nullptr, 10 * GST_SECOND);
+    gst_element_get_state(pipeline_, nullptr, nullptr, 60 * GST_SECOND);
   }
   output_->follower().refresh();
 }

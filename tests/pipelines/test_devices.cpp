@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-// Several devices in one pipeline and in one process, each with a force of its own. On test clocks.
+// Several devices in one pipeline, each with a force of its own. On a test clock.
 #include "plugin/filter/spidar_motion.h"
 #include "tests/pipelines/shown_motion.h"
 #include "tests/support/test.h"
@@ -60,29 +60,6 @@ TEST(Devices, TwoInOnePipelineFeelWhatEachIsShown) {
     const Eigen::Vector3d expected_px_s(-felt_px_s.x(), felt_px_s.y(), felt_px_s.z());
     EXPECT_LT((velocity_px_s(mirrored.wanted.force_N) - expected_px_s).norm(), kTolerance_px_s);
     EXPECT_EQ(felt_px_s.norm() > kMoves_px_s, n > 0);
-  }
-}
-
-TEST(Devices, TwoInOneProcessHaveTimesOfTheirOwn) {
-  SteppedPipeline one(kBall +
-                      "! spidarmotion name=motion device=sim:sh4 profile=spidar-g6x3-v2-r " +
-                      kPaper + kSink);
-  SteppedPipeline two(kBall +
-                      "! spidarmotion name=motion device=sim:simple profile=spidar-g6x3-v2-r " +
-                      kPaper + kSink);
-  one.set_state(GST_STATE_PLAYING);
-  two.set_state(GST_STATE_PAUSED);
-  play(one, 10);
-  expect_rest(two, GST_SECOND);
-  two.seek(GST_SECOND);
-  two.set_state(GST_STATE_PLAYING);
-  one.set_state(GST_STATE_PAUSED);
-  EXPECT_GT(play(two, 10)[9].norm(), kMoves_px_s);
-  expect_rest(one, 50 * GST_MSECOND);
-  one.set_state(GST_STATE_PLAYING);
-  for (int n = 0; n < 10; ++n) {
-    EXPECT_GT(play(one, 1)[0].norm(), kMoves_px_s);
-    EXPECT_GT(play(two, 1)[0].norm(), kMoves_px_s);
   }
 }
 

@@ -21,7 +21,7 @@ except ImportError:
     webdriver = None
 
 MINI_BROWSER = sorted(glob.glob("/usr/lib/*/webkit2gtk-4.*/MiniBrowser"))
-LONGEST_S = 30
+LONGEST_S = 60
 # What the console would show, from the beginning.
 COLLECT = """<script>
 window.faults = [];
@@ -184,6 +184,29 @@ class Page(screen.ScreenCase, track_case.TrackCase):
             browser.execute_script("document.exitFullscreen();")
             self.wait(browser, "!document.fullscreenElement")
             self.assertEqual(self.look(browser, name)["faults"], [])
+
+    def test_a_page_whose_film_does_not_play_says_why_and_what_helps(self):
+        for film, why in (("film.mp4", "because its picture is video/mpeg simple. "), ("film.mkv", "because it is neither MP4 nor WebM. ")):
+            self.make_page("mpeg4", film)
+            for name, browser in self.browse():
+                if (name, film) != ("WebKit", "film.mkv"):  # its GStreamer reads Matroska
+                    self.wait(browser, "film.error || said.textContent.includes('does not play')")
+                    said = self.look(browser, f"{name}-{film}")["said"]
+                    self.assertIn("does not play, " + why, said)
+                    self.assertIn(f"“spidartrack export {film} FOLDER/”", said)
+            self.path("page.html").unlink()
+
+    def test_a_gamepad_vibrates_in_time_with_the_film(self):
+        """By the force of the moment: 2 N of 3, and then all of it."""
+        self.make_page()
+        for _, browser in self.browse():
+            browser.execute_script("""window.pulses = []; navigator.getGamepads = () => [{ vibrationActuator: {
+                playEffect(kind, effect) { pulses.push([film.currentTime, effect.strongMagnitude]); return Promise.resolve(); } } }];
+                film.muted = true; film.currentTime = 1.5; film.play();""")
+            self.wait(browser, "film.ended && pulses.length > 2")
+            for time_s, strength in browser.execute_script("return pulses")[:-1]:  # the last one ends it
+                # The time may have gone on meanwhile.
+                self.assertTrue(abs(time_s - 2) < .1 or abs(strength - (2 / 3 if time_s < 2 else 1)) < .02, (time_s, strength))
 
     def test_it_is_as_clear_on_an_upright_telephone(self):
         self.make_page()

@@ -85,10 +85,10 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
         return ["gst-launch-1.0", "-q", *f"filesrc location={self.film} ! decodebin ! spidarmotion {properties} "
                 f"trace={self.trace} ! videoconvert ! {sink} qos=false".split()]
 
-    def mouse(self, place, *then):
-        """To a place of the picture, which fills the window; `then` is what xdotool does there."""
+    def mouse(self, place):
+        """To a place of the picture, which fills the window."""
         screen.xdotool("mousemove", self.window["X"] + round(place[0] * self.window["WIDTH"]),
-                       self.window["Y"] + round(place[1] * self.window["HEIGHT"]), *then)
+                       self.window["Y"] + round(place[1] * self.window["HEIGHT"]))
 
     @staticmethod
     def place_of(disc):
@@ -107,22 +107,10 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
         half = TURN_FRAMES // 2
         return comes(lambda: [self.felt(row) for row in last_rows(self.trace, half)] == [disc] * half)
 
-    def newest_s(self):
-        return 1e-9 * int(last_rows(self.trace, 1)[0]["stream_time_ns"])
-
     def expect_mouse_chooses(self):
         for disc in range(len(MIDDLES)):
             self.mouse(self.place_of(disc))
             self.assertTrue(self.comes_to_feel(disc), disc)
-
-    def expect_click_keeps(self):
-        self.mouse(self.place_of(2), "click", 1)
-        self.mouse(self.place_of(0))
-        later_s = self.newest_s() + 4
-        self.assertTrue(comes(lambda: self.newest_s() > later_s))
-        self.assertTrue(self.comes_to_feel(2), "the click has kept it")
-        self.mouse(self.place_of(0), "click", 1)
-        self.assertTrue(self.comes_to_feel(0), "the second one has let go")
 
     def expect_mouse_of_sink(self, sink):
         shows = self.run_in_folder(f"gst-launch-1.0 -q videotestsrc num-buffers=1 ! videoconvert ! {sink}", None)
@@ -132,8 +120,8 @@ class PlayerMouse(screen.ScreenCase, track_case.TrackCase):
         self.expect_mouse_chooses()
 
     def test_in_ximagesink(self):
+        """What a click does, test_choice.cpp shows."""
         self.expect_mouse_of_sink("ximagesink")
-        self.expect_click_keeps()
 
     def test_in_xvimagesink(self):
         self.expect_mouse_of_sink("xvimagesink")

@@ -1,28 +1,21 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-"""Common players and sources in real time. Nothing depends on the speed of the machine: frames arrive, a force is felt,
-and every tick is checked."""
+"""Sources that are no files, editing, GL, and what is left in an application's process; players of films are in tests/films. In
+real time. Nothing depends on the speed of the machine: frames arrive, a force is felt, and every tick is checked."""
 
 import gc
 import importlib
 import os
-import random
-import shutil
 import signal
 import sys
-import threading
 import time
 import unittest
 
 import gst_case
 from gst_case import Gst
 
-# A picture that goes to the left as a whole: JPEG leaves little of a ball to follow.
-PAN = ("videotestsrc pattern=smpte horizontal-speed=2 num-buffers=15 ! video/x-raw,width=160,height=120,framerate=30/1 ! "
-       "jpegenc ")
 SMALL_BALL = "videotestsrc pattern=ball ! video/x-raw,width=160,height=120 ! "
 MOTION = "spidarmotion motion=mean "
-PLAYBINS = ("playbin", "playbin3")
 
 
 def needs(*names):
@@ -39,50 +32,14 @@ def library(name):
         return None
 
 
-GES, GstPlay = library("GES"), library("GstPlay")
+GES = library("GES")
 
 
 class Players(gst_case.GstCase):
-    def make_clip(self):
-        """Half a second with sound."""
-        self.gst(PAN, "! matroskamux name=m ! filesink location=film.mkv audiotestsrc num-buffers=22 !",
-                 "audio/x-raw,rate=44100 ! m.")
-        return Gst.filename_to_uri(str(self.path("film.mkv")))
-
     def expect_felt(self, outcome, frames):
         self.assertEqual((outcome.error, outcome.warnings), ("", []))
         self.assertEqual(len(outcome.forces), frames)
         self.assertGreater(outcome.largest_N, .1)
-
-    def make_player(self, name, uri, sink="fakesink sync=true"):
-        player = self.watch(Gst.ElementFactory.make(name))
-        for prop, value in (("uri", uri), ("video-filter", Gst.parse_launch(MOTION)),
-                            ("video-sink", Gst.parse_launch(sink)), ("audio-sink", Gst.parse_launch("fakesink"))):
-            player.set_property(prop, value)
-        return player
-
-    def test_playbin(self):
-        uri = self.make_clip()
-        for name in PLAYBINS:
-            self.expect_felt(self.play(self.make_player(name, uri)), 15)
-
-    def test_steps_over_frames(self):
-        """The first ten frames are stepped over: the force begins with the eleventh."""
-        uri = self.make_clip()
-        for name in PLAYBINS:
-            player = self.make_player(name, uri)
-            player.set_state(Gst.State.PAUSED)
-            player.get_state(Gst.CLOCK_TIME_NONE)
-            player.get_property("video-sink").send_event(Gst.Event.new_step(Gst.Format.BUFFERS, 10, 1, True, False))
-            player.bus.timed_pop_filtered(Gst.CLOCK_TIME_NONE, Gst.MessageType.STEP_DONE)
-            self.assertTrue(self.play(player).eos)
-            playing = [int(row["running_ns"]) for row in gst_case.read_ticks(player.watched[-1]) if row["playing"] == "1"]
-            self.assertGreaterEqual(playing[0], 10 * Gst.SECOND // 30 - Gst.MSECOND)
-
-    def test_decodebin(self):
-        self.make_clip()
-        self.expect_felt(self.play(f"filesrc location={self.path('film.mkv')} ! decodebin name=d d. ! queue ! videoconvert "
-                                   f"! {MOTION} ! fakesink d. ! queue ! audioconvert ! fakesink"), 15)
 
     def test_a_live_source_that_stamps_its_frames_as_a_camera_does(self):
         self.expect_felt(self.play("videotestsrc is-live=true do-timestamp=true pattern=ball ! "
@@ -130,79 +87,6 @@ class Players(gst_case.GstCase):
         self.assertTrue(outcome.eos)
         self.expect_felt(outcome, 20)
 
-    def test_stopped_by_another_thread_at_any_moment(self):
-        chance = random.Random(3)
-        for run in range(40):
-            with self.subTest(run):
-                pipeline = self.parse(SMALL_BALL + "queue ! spidarmotion ! queue ! fakesink sync=true")
-                other = threading.Timer(.03 * chance.random(), pipeline.set_state, [Gst.State.NULL])
-                other.start()
-                pipeline.set_state(Gst.State.PLAYING)
-                if chance.random() < .5:
-                    pipeline.seek_simple(Gst.Format.TIME, Gst.SeekFlags.FLUSH, Gst.SECOND)
-                other.join()
-                self.stop(pipeline)
-
-    def test_every_picture_of_videotestsrc(self):
-        patterns = Gst.ElementFactory.make("videotestsrc").find_property("pattern").enum_class
-        # Newer releases of PyGObject give the class as GLib has it.
-        for pattern in range(patterns.n_values if hasattr(patterns, "n_values") else len(patterns.__enum_values__)):
-            outcome = self.play(f"videotestsrc num-buffers=5 pattern={pattern} ! "
-                                "video/x-raw,width=320,height=240 ! spidarmotion ! fakesink")
-            self.assertEqual((outcome.error, outcome.warnings, len(outcome.forces)), ("", [], 5), pattern)
-
-    def test_a_damaged_film(self):
-        self.make_film("clip.avi", 30)
-        content = bytearray(self.path("clip.avi").read_bytes())
-        chance = random.Random(1)
-        for at in range(4096, len(content)):
-            if chance.random() < 1 / 256:
-                content[at] = chance.randrange(256)
-        self.path("clip.avi").write_bytes(content)
-        outcome = self.play(f"filesrc location={self.path('clip.avi')} ! decodebin ! videoconvert ! spidarmotion ! fakesink")
-        self.assertTrue(outcome.eos or outcome.error)
-
-    @unittest.skipUnless(GstPlay, "needs gir1.2-gst-plugins-bad-1.0")
-    def test_gst_play(self):
-        """Half of it at twice the speed."""
-        play = GstPlay.Play.new(None)
-        pipeline = self.watch(play.get_pipeline())
-        pipeline.set_property("video-filter", Gst.parse_launch(MOTION))
-        for sink in ("video-sink", "audio-sink"):
-            pipeline.set_property(sink, Gst.parse_launch("fakesink sync=true"))
-        bus = play.get_message_bus()
-        play.set_uri(self.make_clip())
-        play.pause()
-        ended = False
-        while not ended:
-            message = bus.timed_pop(Gst.CLOCK_TIME_NONE)
-            kind = GstPlay.PlayMessage.parse_type(message)
-            self.assertNotEqual(kind, GstPlay.PlayMessage.ERROR, message.get_structure().to_string())
-            if (kind == GstPlay.PlayMessage.STATE_CHANGED
-                    and GstPlay.PlayMessage.parse_state_changed(message) == GstPlay.PlayState.PAUSED):
-                play.set_rate(2.0)
-                play.seek(Gst.SECOND // 4)
-                play.play()
-            ended = kind == GstPlay.PlayMessage.END_OF_STREAM
-        play.stop()
-        pipeline.get_state(Gst.CLOCK_TIME_NONE)
-        self.stop(pipeline)
-        self.expect_trace(pipeline.watched[-1])
-
-    def expect_trace(self, path):
-        """Something was felt, and has ramped down when the element is closed."""
-        forces = [max(map(abs, gst_case.vector(row, "commanded_force"))) for row in gst_case.read_ticks(path)]
-        self.assertGreater(max(forces), .1)
-        self.assertLess(forces[-1], .01)
-
-    @unittest.skipUnless(shutil.which("gst-play-1.0"), "needs gstreamer1.0-plugins-base-apps")
-    def test_gst_play_1_0(self):
-        """It has no option for a filter, but takes a sink of several elements."""
-        self.make_clip()
-        self.run_in_folder(["gst-play-1.0", "--quiet", "--no-interactive", "--audiosink=fakesink",
-                            f"--videosink={MOTION} haptic-trace=t.csv ! fakesink sync=true", "film.mkv"], timeout=60)
-        self.expect_trace(self.path("t.csv"))
-
     @unittest.skipUnless(GES, "needs gir1.2-ges-1.0")
     def test_a_timeline_of_ges(self):
         """As an effect of a clip, the element warns that it is in the wrong place; after the timeline it works."""
@@ -228,9 +112,7 @@ class Players(gst_case.GstCase):
             self.assertTrue(outcome.eos, outcome.error)
             self.assertEqual(any("timeline" in warning for warning in outcome.warnings), effect is not None)
         reached = {int(row["frame_ns"]) for row in gst_case.read_ticks(trace) if row["playing"] == "1"}
-        # Of 60 frames; the last is at its end, and the first may be over when the first tick comes.
-        self.assertGreater(len(reached), 40)
-        self.assertGreater(max(reached), 1.9e9)
+        self.assertGreater(max(reached), 1e9, "the second clip, too")
 
 
 class Gl(gst_case.GstCase):

@@ -94,22 +94,6 @@ class Properties(ElementCase):
         # What is asked for is not replaced.
         self.assertIn("negative volts", self.error_at_ready("device=sim:sh4 profile=spidar-gcc"))
 
-    def test_a_device_that_cannot_be_opened_is_what_on_device_error_says(self):
-        broken = self.path("broken.toml")
-        broken.write_text('name = "x\nrest = [1,')
-        for properties, said in (("device=telepathy", "telepathy"), ("profile=spidar-zzz", "spidar-zzz"),
-                                 (f"profile={broken}", "broken.toml"),
-                                 # A board without a profile, and one that is not there.
-                                 (f"device=uart:{self.path('line')}", "No such file"),
-                                 (f"device=uart:{self.path('line')} profile=spidar-g6x4", str(self.path("line")))):
-            self.assertIn(said, self.error_at_ready(properties))
-            self.open(properties, 32, 32)
-            self.push(3)
-            warnings = self.warnings()
-            self.assertEqual(len(warnings), 1, warnings)
-            self.assertIn(said, warnings[0])
-            self.assertEqual(self.stats("device-no-force-reason"), ["no-device"])
-
     def test_alpha_is_that_of_the_paper_with_its_motion_until_it_is_set(self):
         for properties, expected in (("motion=mean", .01), ("motion=mean motion=camera", .0025), ("motion=objects", .0025),
                                      ("motion=mean alpha=0.0025", .0025), ("alpha=0.02 motion=mean", .02)):

@@ -4,11 +4,8 @@
 // time when it is shown. On a test clock; TickWatch also checks every tick.
 #include <future>
 
-#include <gst/app/gstappsrc.h>
-
 #include "tests/pipelines/shown_motion.h"
 #include "tests/support/test.h"
-#include "tests/support/video_frames.h"
 
 namespace spidar::test::semantics_test {
 namespace {
@@ -142,49 +139,6 @@ TEST(Semantics, AfterTheEndItCanBePlayedAgain) {
   pipeline.await_message(GST_MESSAGE_EOS);
   expect_rest(pipeline, 50 * GST_MSECOND);
   pipeline.seek(0);
-  play_segment(pipeline);
-}
-
-/// Frames of an application's that are drawn when they are asked for, from where they are: 4 px
-/// further each. It draws in a streaming thread of the pipeline, which must end before it.
-class DrawnFrames {
- public:
-  void connect(SteppedPipeline& pipeline) {
-    GstElement* source = gst_bin_get_by_name(GST_BIN(pipeline.pipeline()), "source");
-    GstCaps* caps = make_caps("GRAY8", 320, 240);
-    gst_video_info_from_caps(&info_, caps);
-    g_object_set(source, "caps", caps, "format", GST_FORMAT_TIME, "stream-type",
-                 GST_APP_STREAM_TYPE_SEEKABLE, "duration", 10 * GST_SECOND, nullptr);
-    gst_caps_unref(caps);
-    g_signal_connect(source, "need-data", G_CALLBACK(draw), this);
-    g_signal_connect(source, "seek-data", G_CALLBACK(seek), this);
-    gst_object_unref(source);
-  }
-
- private:
-  static void draw(GstAppSrc* source, guint, DrawnFrames* self) {
-    const int n = self->next_++;
-    GstBuffer* frame = make_frame(self->info_, 4.0 * n, 0);
-    GST_BUFFER_PTS(frame) = static_cast<GstClockTime>(n) * kFrame;
-    gst_app_src_push_buffer(source, frame);
-  }
-  static gboolean seek(GstAppSrc*, guint64 position, DrawnFrames* self) {
-    self->next_ = static_cast<int>(position / kFrame);
-    return TRUE;
-  }
-
-  GstVideoInfo info_;
-  std::atomic<int> next_{0};
-};
-
-TEST(Semantics, FramesThatAnApplicationDrawsOnDemand) {
-  DrawnFrames frames;
-  SteppedPipeline pipeline("appsrc name=source " + kMotion +
-                           "! queue max-size-buffers=2 ! fakesink name=sink sync=true");
-  frames.connect(pipeline);
-  pipeline.set_state(GST_STATE_PLAYING);
-  play_segment(pipeline);
-  pipeline.seek(2 * GST_SECOND);
   play_segment(pipeline);
 }
 

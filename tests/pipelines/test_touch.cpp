@@ -12,7 +12,6 @@
 namespace spidar::test::touch_test {
 namespace {
 
-constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr double kRelief_m = 0.008;
 /// The hand is never moved by more than this when a surface rises under it.
 constexpr double kGentle_m_s = 0.05;
@@ -20,33 +19,6 @@ constexpr double kGentle_m_s = 0.05;
 /// Black is half of the relief behind the middle of the workspace, white as far before it.
 double height_m(double luma) {
   return kRelief_m * (luma / 255 - 0.5);
-}
-
-/// A stream of depth that `compositor` puts beside the picture: a plane has no near and far, and
-/// lies in the middle of the workspace.
-TEST(Touch, DepthOfASecondStreamIsTouched) {
-  Touched touched(
-      "compositor name=both sink_1::xpos=320 ! video/x-raw,format=GRAY8 ! spidarmotion name=motion "
-      "touch=depth ! fakesink name=sink sync=true enable-last-sample=true "
-      "videotestsrc name=source pattern=snow ! "
-      "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! both.sink_0 "
-      "videotestsrc pattern=solid-color foreground-color=0xff404040 ! "
-      "video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! queue ! both.sink_1");
-  touched.hold(0, 0, -0.009);
-  touched.play(50);
-  double force_N = 0, depth_m = 0, surface_m = 0;
-  constexpr int kTicks = 300;
-  for (int n = 0; n < kTicks; ++n) {
-    touched.wait(1);
-    const TickRecord& tick = touched.last();
-    ASSERT_TRUE(tick.contact.touching);
-    force_N += tick.contact.force_N.z() / kTicks;
-    depth_m += tick.contact.depth_m / kTicks;
-    surface_m += (tick.pose.position_m.z() + tick.contact.depth_m) / kTicks;
-  }
-  EXPECT_NEAR(force_N / (500 * depth_m), 1, 0.005);
-  // The step of an encoder is 22.5 µm, of which the pose has some.
-  EXPECT_NEAR(surface_m, 0, 5e-5);
 }
 
 /// What is not switched on changes nothing, to the last bit: wanted, commanded and delivered

@@ -14,11 +14,11 @@ constexpr int kFrame_ms = 40;
 
 class TrackReplay : public testing::Test {
  protected:
-  /// A ball moves about, which is not to be felt. The source makes kFrames in all, also those that
-  /// a seek throws away: the queue holds few.
-  void open(const std::string& track) {
+  /// A ball moves about, which is not to be felt. The source makes so many frames in all, -1 for
+  /// ever, also those that a seek throws away: the queue holds few.
+  void open(const std::string& track, int frames = kFrames) {
     pipeline = std::make_unique<SteppedPipeline>(
-        "videotestsrc pattern=ball num-buffers=" + std::to_string(kFrames) +
+        "videotestsrc pattern=ball num-buffers=" + std::to_string(frames) +
         " ! video/x-raw,format=GRAY8,width=320,height=240,framerate=25/1 ! spidarmotion "
         "name=motion "
         "track=" +
@@ -163,7 +163,7 @@ TEST_F(TrackReplay, WhatIsMissingOrNoTrackIsNamedAndTheFilmAnalysed) {
   const std::string no_track = (folder.path / "text.wav").string();
   std::ofstream(no_track) << "no music";
   for (const std::string& path : {(folder.path / "none.flac").string(), no_track}) {
-    open(path);
+    open(path, -1);
     pipeline->set_state(GST_STATE_PLAYING);
     // On a loaded machine, frames may come before it is known that the file is no track.
     for (int i = 0; i < 5 || !pipeline->has_posted(GST_MESSAGE_WARNING); ++i) {

@@ -17,7 +17,6 @@ from gst_case import Gst
 
 BALL = "videotestsrc pattern=ball motion=sweep ! video/x-raw,width=160,height=120 ! spidarmotion name=m device="
 SHORT = "videotestsrc num-buffers=3 ! video/x-raw,width=160,height=120 ! "
-UNPLUGGED = "The haptic device does not answer: unplugged. The video continues without it."
 
 
 class Pipelines(bus_case.BusCase):
@@ -237,19 +236,6 @@ class Boards(Pipelines):
         wait_for(lambda: not bus.bus_at_rest(0))
         return pipeline
 
-    def test_one_that_is_pulled_out_and_put_back(self):
-        for kind in (b"sh4", b"simple"):
-            with self.subTest(kind):
-                pipeline = self.play(kind)
-                bus.bus_unplug(0, errno.EPROTO)
-                self.assertEqual(self.next_warning(pipeline), UNPLUGGED)
-                self.wait_for_frames(pipeline, 5)
-                bus.bus_plug(0, kind)
-                wait_for(lambda: not bus.bus_at_rest(0))
-                self.wait_for_frames(pipeline, 5)
-                pipeline.set_state(Gst.State.NULL)
-                self.assertTrue(bus.bus_at_rest(0))
-
     def test_the_second_to_ask_for_one_has_none_and_the_first_plays_on(self):
         first = self.play()
         second = Gst.parse_launch(self.LINE)
@@ -289,11 +275,6 @@ class Boards(Pipelines):
             self.assertEqual(pipeline.get_by_name("m").get_property("stats").get_value("touch-stiffness"), stiffness)
             pipeline.set_state(Gst.State.NULL)
 
-    def test_gst_launch_rests_the_motors_however_it_ends(self):
-        for kind in (b"sh4", b"simple"):
-            for number in (signal.SIGINT, signal.SIGTERM, signal.SIGKILL):
-                bus.bus_plug(0, kind)
-                self.end_while_felt(["gst-launch-1.0", "-q", *self.LINE.split()], number)
 
 
 class Joysticks(Pipelines):
