@@ -190,7 +190,6 @@ class Phase final : public PictureFlow {
 cv::Ptr<cv::DenseOpticalFlow> make_dis(const std::string& preset) {
   using Dis = cv::DISOpticalFlow;
   if (preset == "ultrafast") return Dis::create(Dis::PRESET_ULTRAFAST);
-  if (preset == "fast") return Dis::create(Dis::PRESET_FAST);
   if (preset == "medium") return Dis::create(Dis::PRESET_MEDIUM);
   return nullptr;
 }
@@ -210,15 +209,13 @@ std::unique_ptr<Method> make_method(const std::string& name) {
       if (kind == "object") return std::make_unique<Element>(AnalyzerSettings(), number);
       const auto dis = make_dis(preset);
       if (dis) return std::make_unique<Dense>(dis, number);
-      if (kind == "farneback")
-        return std::make_unique<Dense>(cv::FarnebackOpticalFlow::create(), number);
       if (kind == "phase") return std::make_unique<Phase>(number);
     }
   }
-  throw std::invalid_argument(
-      "no method '" + name +
-      "'; there are paper, object:SIZE, dis:ultrafast|fast|medium:SIZE, farneback:SIZE, phase:SIZE "
-      "with a SIZE of at most 1, lk:POINTS");
+  throw std::invalid_argument("no method '" + name +
+                              "'; there are paper, object:SIZE, dis:ultrafast|medium:SIZE, "
+                              "phase:SIZE with a SIZE of at most 1, "
+                              "lk:POINTS");
 }
 
 Vector2d FlowGrid::at_px(size_t i) const {

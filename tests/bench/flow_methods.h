@@ -37,8 +37,7 @@ class Method {
 
 /// By name:
 ///   object:SIZE, paper                 settings of MotionAnalyzer
-///   dis:ultrafast|fast|medium:SIZE     dense flow (DIS) at SIZE, a fraction of the picture's width
-///   farneback:SIZE                     dense flow (Farnebäck)
+///   dis:ultrafast|medium:SIZE          dense flow (DIS) at SIZE, a fraction of the picture's width
 ///   lk:POINTS                          pyramidal Lucas–Kanade of so many Shi–Tomasi points
 ///   phase:SIZE                         phase correlation of blocks of 32 px
 /// Throws std::invalid_argument, which lists them.

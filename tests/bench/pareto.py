@@ -38,9 +38,8 @@ HAND_DEG = 18.4  # a turn of a force that a hand tells apart: Barbagli, Salisbur
 # As flow_methods.cpp has them: px of a frame 480 lines high, cells of 16 px.
 THRESHOLDS = [f"{px} px, {cells} cells" for px in (1, 2, 4) for cells in (3, 8, 24, 48)]
 CLIPS = Path(__file__).with_name("real_films") / "clips.tsv"
-KINDS = {"object": "motion=object", "paper": "motion=mean", "dis:ultrafast": "DIS, ultrafast", "dis:fast": "DIS, fast",
-         "dis:medium": "DIS, medium", "farneback": "Farnebäck", "phase": "phase correlation",
-         "lk": "sparse Lucas-Kanade", "vectors": "H.264 vectors"}
+KINDS = {"object": "motion=object", "paper": "motion=mean", "dis:ultrafast": "DIS, ultrafast",
+         "dis:medium": "DIS, medium", "phase": "phase correlation", "lk": "sparse Lucas-Kanade", "vectors": "H.264 vectors"}
 
 
 def scaled(film, truth, lines, folder):
