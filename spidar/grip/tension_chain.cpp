@@ -25,7 +25,7 @@ const std::array<TensionChain::Step, 6> TensionChain::kSteps{{
 
 StringVector TensionChain::apply(const Tick& tick) noexcept {
   StringVector left_N = profile_.min_tension_N();
-  for (const Step& step : kSteps) left_N = (this->*step.leave)(left_N, tick);
+  for (const Step& step : kSteps) left_N = (this->*step.function)(left_N, tick);
   return left_N;
 }
 

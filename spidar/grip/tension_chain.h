@@ -25,13 +25,13 @@ class TensionChain {
     bool trusted;  ///< whether the pose is trusted
     int left_out;  ///< string that is broken or slack; −1: none
   };
-  /// One step; `leave` returns the limited tensions. The chain runs the steps in the order of
+  /// One step; `function` returns the limited tensions. The chain runs the steps in the order of
   /// kSteps, and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
     const char* reason;  ///< why the limit exists, or why it has this place
-    StringVector (TensionChain::*leave)(const StringVector&, const Tick&) noexcept;
+    StringVector (TensionChain::*function)(const StringVector&, const Tick&) noexcept;
   };
   static const std::array<Step, 6> kSteps;
 

@@ -26,7 +26,7 @@ const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
 
 Wrench WrenchChain::apply(const Wrench& wanted) noexcept {
   Wrench left = wanted;
-  for (const Step& step : kSteps) left = (this->*step.leave)(left);
+  for (const Step& step : kSteps) left = (this->*step.function)(left);
   return left;
 }
 

@@ -18,13 +18,13 @@ namespace spidar {
 /// The limits of one tick. The loop owns the state of each.
 class WrenchChain {
  public:
-  /// One step; `leave` returns the limited wrench. The chain runs the steps in the order of kSteps,
-  /// and docs/architecture.md has the same list (test `limit_chain`).
+  /// One step; `function` returns the limited wrench. The chain runs the steps in the order of
+  /// kSteps, and docs/architecture.md has the same list (test `limit_chain`).
   struct Step {
     const char* name;
     const char* limit;
     const char* reason;  ///< why the limit exists, or why it has this place
-    Wrench (WrenchChain::*leave)(const Wrench&) noexcept;
+    Wrench (WrenchChain::*function)(const Wrench&) noexcept;
   };
   static const std::array<Step, 8> kSteps;
 

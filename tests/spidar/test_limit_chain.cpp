@@ -62,7 +62,7 @@ TEST(LimitChains, RatesTakeWhatIsNotFiniteForNothing) {
   for (const WrenchChain::Step& step : WrenchChain::kSteps) {
     if (std::string(step.name) != "Rates") continue;
     const Wrench bad{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 0}};
-    EXPECT_NEAR((chain.*step.leave)(bad).force_N.x(), 1 - 1e-3 * limits.max_slew_N_s, 1e-12);
+    EXPECT_NEAR((chain.*step.function)(bad).force_N.x(), 1 - 1e-3 * limits.max_slew_N_s, 1e-12);
   }
 }
 
