@@ -22,15 +22,17 @@ constexpr int kMinStrings = 7;
 constexpr int kMaxFitIterations = 50;
 constexpr int kMaxRescalings = 5;
 constexpr double kSameSigma = 0.02;
-// A residual beyond 5 σ: exp(−12.5), four in a million, of the good samples are outside.
+// A sample is an outlier if its residual exceeds 5 σ, as exp(−12.5), four in a million, of the good
+// samples do.
 constexpr double kOutlier = 5.0;
 // After the strings have slipped, earlier offsets are no longer valid: most of the last tenth of
 // the samples must fit.
 constexpr Eigen::Index kLastParts = 10;
 
-/// Estimates the standard deviation of one length from the norms of the samples' errors, up to half
-/// of which may be arbitrary. The norm of a good sample is σ times the root of χ² with `redundant`
-/// degrees of freedom, one or two. `parameters` were fitted. Returns at least `floor_m`.
+/// Estimates the standard deviation σ of one length from the norms of the samples' errors, up to
+/// half of which may be arbitrary. The norm of a good sample is σ times the root of χ² with
+/// `redundant` degrees of freedom, one or two. `parameters` is the number of fitted parameters.
+/// Returns at least `floor_m`.
 double robust_sigma_m(Eigen::VectorXd norms_m, int redundant, int parameters, double floor_m) {
   const double errors = redundant * static_cast<double>(norms_m.size());
   if (errors <= parameters) return floor_m;
@@ -99,10 +101,10 @@ double correlation_factor(const Fit& fit) {
 }
 
 /// The standard deviation of the combination of parameters that the samples determine worst,
-/// relative to that of a length, for independent errors of successive samples. Infinite where the
-/// samples determine nothing. An orthogonal projection eliminates the pose of each sample. This is
-/// the Schur complement of bundle adjustment as a square root, and stays accurate where the
-/// information matrix is singular and has no inverse.
+/// relative to that of a length, for independent errors of successive samples. Infinite if the
+/// samples do not determine some combination at all. An orthogonal projection eliminates the pose
+/// of each sample. The result is the square root of the Schur complement of bundle adjustment, and
+/// remains accurate when the information matrix is singular.
 double largest_sd(const Fit& fit) {
   // Singular values below this fraction of the largest one are rounding errors.
   constexpr double kRank = 1e-10;

@@ -78,8 +78,8 @@ class GripMotion {
 
   /// Extrapolates the velocity to `ahead_s` after the newest pose, with the poses' acceleration.
   GripVelocity velocity_in(double ahead_s) const noexcept {
-    // The normal equations of way = c + a t + b h: h is t²/2, and way is the distance of a pose
-    // from where velocity_ would have led. Subtracting the means below eliminates c.
+    // The normal equations of way = c + a t + b h, where h is t²/2, and way is the distance of a
+    // pose from the one that velocity_ predicts. Subtracting the means below eliminates c.
     double n = 0, t_sum = 0, h_sum = 0, tt = 0, th = 0, hh = 0;
     Six way_sum = Six::Zero(), t_way = Six::Zero(), h_way = Six::Zero();
     for (size_t age = 0; age < poses_.size(); ++age) {

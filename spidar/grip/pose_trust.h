@@ -75,7 +75,8 @@ class PoseTrust {
     located_ = true;
     located_ns_ = read_ns;
   }
-  /// Call this for a good pose. Trust begins with it only if `may_trust`; existing trust stays.
+  /// Call this for a good pose. Trust can begin only if `may_trust`; existing trust continues in
+  /// any case.
   void succeed(bool may_trust) noexcept {
     misses_ = 0;
     good_poses_ = std::min(good_poses_ + 1, kGoodPoses);

@@ -114,7 +114,8 @@ StringVector TensionCommand::solve(const StructureMatrix& W, const Wrench& wrenc
   if (!(size > 0)) return last_N_;
   problem_.W = W;
   const Wrench at_rest = left_out_ < 0 ? wrench_of(W, min_N_) : Wrench();
-  // Half of the range counts as all of it: that is all that some motors sustain indefinitely.
+  // A string that may use half of its range counts as not limited, because some motors sustain no
+  // more indefinitely.
   const double denied = std::min(1.0, 2 * pose_problem(wrench, limit_N));
   problem_.wrench = problem_.wrench + at_rest;
   TensionResult result = solver_.solve(problem_);

@@ -114,10 +114,10 @@ class TensionCommand {
 
   /// Two ticks: one until the next exchange, and one more if that exchange is late.
   static constexpr double kAhead_s = 2e-3;
-  /// The lever, as a fraction of the grip's radius, of the torque that least squares leaves beside
-  /// a force that the strings cannot exert alone: 0.3 to 0.6 within 2 cm and 20°. A torque up to
-  /// this lever times the force limit never counts as above the torque limit, because only a
-  /// smaller force would lower it.
+  /// The strings cannot exert every force without a torque. Least squares leaves a torque whose
+  /// lever is 0.3 to 0.6 of the grip's radius within 2 cm and 20°; this is the lever that limit()
+  /// assumes. A torque up to this lever times the force limit never counts as above the torque
+  /// limit, because only a smaller force would reduce that torque.
   static constexpr double kStrayLever = 0.5;
 
   /// The pace of fade() when the pose is lost: a string may have broken, and the others pull with
@@ -142,9 +142,10 @@ class TensionCommand {
   /// decay with the lag of the drives. The limits therefore hold also at the pose that is reached
   /// in kAhead_s and two time constants of the drives, when an eighth of the tensions is left.
   ///
-  /// Where the force at rest alone exceeds the limit, the command does not increase it. A torque
-  /// limit below the torque at rest and that of kStrayLever counts as their sum, because a limit of
-  /// zero must leave the force. With the default limits that sum is lower in every profile.
+  /// If the force at rest alone exceeds the limit, the command does not increase the force. A
+  /// torque limit below the sum of the torque at rest and that of kStrayLever counts as that sum,
+  /// because a torque limit of zero must not remove the force. In every profile, the sum is below
+  /// the default limit.
   StringVector limit(const StructureMatrix& W, const SafetyLimits& limits, const Pose& pose,
                      const GripMotion& motion) noexcept;
 

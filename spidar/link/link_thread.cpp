@@ -235,7 +235,7 @@ std::optional<typename LinkThread<BoardType>::Reply> LinkThread<BoardType>::exch
 
 template <typename BoardType>
 bool LinkThread<BoardType>::ramp_to_zero() noexcept {
-  // Outputs that a guardian has set to zero must not come back.
+  // After a guardian has set the outputs to zero, the ramp must not raise them again.
   const Output from = unguarded_ == LinkFault::kNone ? last_ : Output{};
   Reading reading;
   for (int left = pulls(from) ? kRamp_ms - 1 : 0; left > 0; --left) {
@@ -252,7 +252,7 @@ bool LinkThread<BoardType>::send_zeros() noexcept {
   Reading reading;
   for (int attempt = 0; attempt < kErrorsToRecover; ++attempt) {
     const LinkFault fault = board_->cycle({}, reading, monotonic_now_ns() + kTransfer_ns);
-    // After a counter jump, a strange answer or a surplus one, the board has received the output.
+    // After a counter jump, a wrong reply or surplus data, the board has received the output.
     if (fault == LinkFault::kNone || fault == LinkFault::kCounterJump ||
         fault == LinkFault::kWrongReply || fault == LinkFault::kBabble) {
       return true;

@@ -30,8 +30,8 @@ namespace spidar::boards {
 /// Motors pull only as long as every connection has its guardian. Without a guardian, the motors
 /// are set to zero at once, and the device is lost until it is reopened with a new guardian.
 ///
-/// The board's `Output` needs two functions: pulls(output), which tells whether the output differs
-/// from rest, and scaled(output, fraction).
+/// The board's `Output` needs two functions: pulls(output), which returns whether the output
+/// differs from rest, and scaled(output, fraction).
 template <typename BoardType>
 class LinkThread final : public DeviceOf<typename BoardType::Output, typename BoardType::Reading> {
  public:
@@ -80,7 +80,7 @@ class LinkThread final : public DeviceOf<typename BoardType::Output, typename Bo
   void exchange_now(const Request& request, Reply& reply) noexcept;
   bool guarded(bool pulling) noexcept;
   LinkFault why_unguarded() const noexcept;
-  /// Both return true if the motors have received their zeros; ramp_to_zero() uses a ramp.
+  /// Both return true if the motors have received zeros; ramp_to_zero() ramps the outputs first.
   bool send_zeros() noexcept;
   bool ramp_to_zero() noexcept;
 

@@ -27,8 +27,8 @@ inline Eigen::Vector3d position_m(Motors& motors) noexcept {
   return 1e-6 * Eigen::Vector3d(at_um[0], at_um[1], at_um[2]);
 }
 
-/// The hand that holds an emulated device which takes a force. A spring and a damper hold the grip
-/// at the centre, and the hand moves with the force, in the units of set_force_N() and
+/// The hand that holds an emulated device whose input is a force. A spring and a damper hold the
+/// grip at the centre, and the hand moves with the force, in the units of set_force_N() and
 /// position_m().
 class SpringHand final : public Motors {
  public:

@@ -108,8 +108,9 @@ struct LagCandidate {
   double error_s = 0;                                     ///< standard error of the lag
 };
 
-/// Returns T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀: a root of a₃ − a₂ T + a₁ T²
-/// − a₀ T³, by Newton's method from a₃ / a₂, the solution without a hand; and its derivatives.
+/// Returns T in (m s² + d s + k) (1 + T s) = a₃ s³ + a₂ s² + a₁ s + a₀, and the derivatives of T by
+/// the coefficients. T is a root of a₃ − a₂ T + a₁ T² − a₀ T³. Newton's method finds it from a₃ /
+/// a₂, the solution without a hand.
 double first_order_part_s(const Eigen::Vector4d& a, Eigen::Vector4d& by_coefficient) {
   double part_s = a[3] / a[2];
   for (int i = 0; i < 20; ++i) {
@@ -131,8 +132,8 @@ double weight_of(const ResponseLine& line, int periods) {
   return 1 / std::sqrt(0.5 * (estimated * line.variance + systematic));
 }
 
-/// The inverse of the response is linear in the coefficients: linear least squares, in which the
-/// first pass weights errors by the measured response, and the later passes by the fitted response
+/// The inverse of the response is linear in the coefficients, so linear least squares finds them.
+/// The first pass weights errors by the measured response, the later passes by the fitted response
 /// (Sanathanan and Koerner 1963).
 LagCandidate best_with_delay(const std::vector<ResponseLine>& lines, int periods, double delay_s) {
   constexpr int kPasses = 4;
@@ -214,8 +215,8 @@ LagFit fit_lag(const std::vector<ResponseLine>& lines, int periods) {
   const double spread = best.cost / static_cast<double>(2 * lines.size() - kUnknowns);
   result.misfit = std::sqrt(spread);
   result.lag_s = result.least_s = result.most_s = best.lag_s;
-  // The interval is a profile likelihood: for every delay, the lags whose cost is within the limit.
-  // A misfit scales all errors up.
+  // The interval is that of a profile likelihood: it contains, for every delay, the lags whose cost
+  // is within the limit. A misfit scales all errors up.
   const double scale = std::max(1.0, spread);
   for (const LagCandidate& candidate : found) {
     const double left = kDeviations * kDeviations - (candidate.cost - best.cost) / scale;

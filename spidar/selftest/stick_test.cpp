@@ -55,9 +55,9 @@ bool push(ForceHold& hold, const Eigen::Vector3d& force_N, Pushes& mean) {
   return true;
 }
 
-/// A stick with spring k and viscous friction c returns by the fraction 1 − exp(−k t/c) of its way
-/// in the time t. In the time T of the push, a force F has moved it by (1 − exp(−k T/c)) F/k, where
-/// the spring pulls with 1 − exp(−k T/c) of F.
+/// In the time t, a stick with spring k and viscous friction c returns by the fraction 1 − exp(−k
+/// t/c) of its displacement. In the time T of the push, a force F has moved the stick by (1 −
+/// exp(−k T/c)) F/k; there, the spring pulls with the fraction 1 − exp(−k T/c) of F.
 double spring_that_pulls_back(double fraction) {
   // The ramps at both ends of the push count half.
   constexpr double kPushed_s = kRamp_s + kPush_s + kAverage_s;

@@ -43,10 +43,11 @@ struct WiringAnswers {
   bool complete = false;  ///< false if the pace ended the test early
 };
 
-/// Pulls string after string, the others at their smallest tension, with a hand that holds the grip
-/// loosely. Each string is pulled twice. When the two answers differ, or the counts at rest around
-/// them, both pulls are repeated, up to three times. Takes a second a string with the default
-/// settings, and as much again where pulls are repeated or a motor is tried with the other sign.
+/// Pulls one string after the other while a hand holds the grip loosely and the other strings have
+/// their smallest tension. Pulls each string twice. If the two answers differ, or the counts at
+/// rest before and after a pull do, repeats both pulls, up to three times. Takes a second per
+/// string with the default settings, and as much again when pulls are repeated or a motor is tried
+/// with the other sign.
 ///
 /// Throws DeviceError when the device is lost, or when a string runs away by 30 mm, further than a
 /// hand gives way: the motor unwinds the string, or nobody holds the grip.

@@ -43,12 +43,12 @@ struct WiringReport {
 
 /// Explains the answers by as few exchanged or reversed channels as possible.
 ///
-/// A grip that a hand holds with compliance C moves by C W e_i ΔT when motor i pulls ΔT more, and
-/// the strings get longer by −Wᵀ times that (W: structure matrix at the centre). The change of
-/// lengths is known except for C, which is assumed to be the same in all directions, with a
-/// fraction of rotation that is tried out. The search for the wiring whose expected answers
-/// correlate best with the measured ones starts at the profile's wiring, and exchanges two motors,
-/// two encoders or both.
+/// When motor i pulls ΔT more, a grip that a hand holds with compliance C moves by C W e_i ΔT, and
+/// the strings get longer by −Wᵀ times that motion (W: structure matrix at the centre). C is
+/// unknown. It is assumed to be the same in all directions, with a fraction of rotation for which
+/// several values are tried. The search for the wiring whose expected answers correlate best with
+/// the measured ones starts at the profile's wiring, and exchanges two motors, two encoders or
+/// both.
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 
 /// Returns the profile with the measured signs, and with its strings in the order of the channels.

@@ -27,7 +27,7 @@ struct SessionSettings {
 class HapticSession {
  public:
   /// Opens the grip and starts the loop. Throws DeviceError. A player uses a device through this
-  /// class: the loop, its thread, and the trace file.
+  /// class, which owns the loop, its thread, and the trace file.
   explicit HapticSession(std::unique_ptr<Grip> grip, const SessionSettings& settings = {});
   /// Makes a session with a grip on the strings of this device. Throws std::invalid_argument when
   /// the profile has fewer than six strings.

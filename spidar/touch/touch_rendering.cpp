@@ -140,8 +140,8 @@ void Rendering::advance(Mailbox& mailbox, int64_t running_ns) noexcept {
     if (!leads_on_) {
       leads_on_ = true;
       jumped_ = false;
-      // If the next frame is already known, the transition begins when the last one ended, so that
-      // the surface does not pause until the next tick.
+      // If the next frame is already known, the transition to it begins when the last transition
+      // ended, so that the surface does not pause until the next tick.
       from_ns_ = just_reached ? reached_ns_ : running_ns;
       const int64_t interval_ns = next->time_ns - now->time_ns;
       to_ns_ = leads_to(*now, *next)

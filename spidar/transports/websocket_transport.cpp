@@ -171,7 +171,7 @@ Transport::StaleData WebSocketTransport::Connection::drop_stale_data(int64_t unt
   bool is_in_time = true;
   while (is_in_time && has_unread()) {
     is_in_time = monotonic_now_ns() < until_ns;
-    // With −1, libwebsockets takes what has arrived, and does not wait.
+    // With −1, libwebsockets reads what has arrived, and does not wait.
     if (lws_service(context_, -1) < 0) state_ = State::kGone;
   }
   finish();
