@@ -4,8 +4,7 @@
 """Measures whether the right motion is felt in real films:
 
   tests/bench/real_films.sh FOLDER...                        the spidarmotion of build/
-  BUILD=FOLDER OLDER=FOLDER tests/bench/real_films.sh ...    of other build folders; OLDER: beside another version,
-                                                             with the frames that are judged in another way
+  BUILD=FOLDER tests/bench/real_films.sh ...                 of another build folder
   tests/bench/real_films.py FOLDER... --other NAME=FOLDER    also of another method, from what it has measured; needs
                                                              only the plugin, no benchmarks
 
@@ -17,13 +16,9 @@ object against the background: lines `frame,x,y`, the first frame being 0, in pi
 since the frame before, x right, y down; frames that are missing are not counted. A film without
 such a file has no object, only a camera that moves. truth.py makes such a folder from a data set.
 
-It also prints how often each model explains the camera's motion.
-
-right: within 30 degrees and a factor of 2 of the truth. wrong: felt and more than 60 degrees off.
-listed: some object of the frame is right, whether it is felt or not. Counted are frames with more than 1 px of
-true motion, of a frame 480 lines high, not the first two. false: frames of films without an object in which some
-motion is felt. felt: more than 2.1 px/s of a frame 480 lines high. jitter: root mean square of the second
-difference of the motion, px of a frame 480 lines high, median over the films, beside that of the truth.
+right: within 30 degrees and a factor of 2 of the truth. wrong: felt and more than 60 degrees off. Counted are
+frames with more than 1 px of true motion, of a frame 480 lines high, not the first two. false: frames of films
+without an object in which some motion is felt. felt: more than 2.1 px/s of a frame 480 lines high.
 
 mean of films: of right %, each film counting once; below half: how many films are. truth: of the frames of films with an
 object, how many have a truth. Truths rest on brightness that stays as it is, as the measured motion does.
@@ -33,13 +28,6 @@ for other angles and factors than these; the third that of right and false frame
 faster counts as felt, and right less false: the one number that tells methods apart, since both errors count alike in it,
 and whoever always or never finds a motion has 0 at the most. The fourth compares each method with the first by films.
 
-not right, in per cent of the counted frames, by cause: not yet, the object has not been listed so far; no camera, how
-the camera moves is not known; not found, no listed object is right; not felt, one is right and nothing is felt; another,
-one is right and another is felt.
-
-Calm, over all films, a minute: changes, how often another object is felt; turns, how often the force turns
-by more than 90 degrees from one frame to the next; starts, how often a force begins that a hand feels.
-
 ms: processor time of a frame without decoding: median, 99 %, longest."""
 
 import argparse
@@ -47,7 +35,6 @@ import csv
 import json
 import math
 import os
-import statistics
 import subprocess
 import sys
 import tempfile
@@ -67,10 +54,7 @@ UNSEEN = 2  # frames at the beginning of a film
 METHODS = {"dis:medium:0.5": "DIS at half size, largest region", "vectors": "H.264 vectors, largest region"}
 PAPER = ["motion=mean", "filter-min-cutoff=0"]
 PAIRED = (("right", "counted"), ("wrong", "counted"), ("false", "without_object"))
-CAUSES = ("not yet", "no camera", "not found", "not felt", "another")
-COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "any force %", "false %", "listed %",
-           "not right: " + ", ".join(CAUSES),
-           "changes, turns, starts a minute", "jitter (true), px", "ms"]
+COLUMNS = ["", "right %", "mean of films, below half", "truth %", "wrong %", "false %", "ms"]
 
 
 def print_head(*columns):
@@ -113,12 +97,10 @@ def read_other(folder, film, frames):
 
 
 class Frame:
-    """What was found in a frame: its motion and those of all objects, px since the frame before; the force, N."""
+    """What was found in a frame: its motion, px since the frame before; the force, N."""
 
-    def __init__(self, motion, seconds, height, objects=(), force_N=None, felt_object=0, has_camera=True, model=None):
-        self.motion, self.seconds, self.height, self.has_camera = motion, seconds, height, has_camera
-        self.objects, self.force_N, self.felt_object = objects, force_N, felt_object
-        self.model = model if has_camera else "unknown"  # of the motion of the camera
+    def __init__(self, motion, seconds, height, force_N=None):
+        self.motion, self.seconds, self.height, self.force_N = motion, seconds, height, force_N
         self.speed_px_s = math.hypot(*motion) / (seconds * height / REFERENCE_LINES) if seconds > 0 else 0
         self.is_felt = self.speed_px_s > FELT_PX_S
 
@@ -141,12 +123,9 @@ def play(build, film, properties=()):
     """The frames of a film."""
     frames = []
     for row in trace_rows(build, film, properties):
-        background = row.get("background") or {}
         seconds = row["interval_ns"] * 1e-9
-        moved = lambda of: tuple(v * seconds for v in of["velocity_px_s"])
-        frames.append(Frame(moved(row["motion"]), seconds, row["height_px"],
-                            [moved(each) for each in row.get("objects") or ()], row["wrench"]["force_N"],
-                            row.get("object", 0), background.get("coverage", 0) > 0, background.get("model")))
+        moved = tuple(v * seconds for v in row["motion"]["velocity_px_s"])
+        frames.append(Frame(moved, seconds, row["height_px"], row["wrench"]["force_N"]))
     return frames
 
 
@@ -183,92 +162,48 @@ def apart(motion, true):
     return math.degrees(math.acos(max(-1, min(1, cosine)))), found_px / true_px
 
 
-def jitter_px(motion, frames):
-    """Of the frames whose two predecessors are also known."""
-    squares = [sum((p - 2 * q + r) ** 2 for p, q, r in zip(motion[n], motion[n - 1], motion[n - 2]))
-               for n in frames if n - 1 in frames and n - 2 in frames]
-    return math.sqrt(statistics.fmean(squares)) if squares else None
-
-
 class Tally:
     """What was right and wrong in some films."""
 
     def __init__(self):
-        self.counted = self.right = self.wrong = self.felt = self.listed = 0
+        self.counted = self.right = self.wrong = 0
         self.without_object = self.false = self.with_object = self.known = 0
-        self.causes = Counter()
-        self.jitters, self.true_jitters, self.times_ms = [], [], []
-        self.changes = self.turns = self.starts = 0
-        self.seconds = 0.0
-        self.has_force = False
+        self.times_ms = []
         self.films = []  # sums() of each
         self.apart = []  # of each with an object: angle and ratio of speeds in the counted frames, None where none is felt
         self.right_px_s, self.false_px_s = [], []  # of each film: speeds that were found where they are right, and false
 
     def sums(self):
-        return Counter(right=self.right, wrong=self.wrong, felt=self.felt, listed=self.listed, counted=self.counted,
-                       false=self.false, without_object=self.without_object, with_object=self.with_object, known=self.known,
-                       **self.causes)
+        return Counter(right=self.right, wrong=self.wrong, counted=self.counted, false=self.false,
+                       without_object=self.without_object, with_object=self.with_object, known=self.known)
 
     def add(self, frames, truth, times_ms=()):
         before = self.sums()
-        verdicts = self.add_film(frames, truth, times_ms)
+        self.add_film(frames, truth, times_ms)
         self.films.append({name: value - before[name] for name, value in self.sums().items()})
-        return verdicts
 
     def add_film(self, frames, truth, times_ms):
         self.times_ms += times_ms
-        self.add_calm(frames)
         self.right_px_s.append([])
         self.false_px_s.append([frame.speed_px_s for frame in frames[UNSEEN:]] if truth is None else [])
         if truth is None:
             self.without_object += len(frames) - UNSEEN
             self.false += sum(frame.is_felt for frame in frames[UNSEEN:])
-            return []
+            return
         unit = frames[0].height / REFERENCE_LINES
         known = [n for n in truth if UNSEEN <= n < len(frames)]
         self.with_object += len(frames) - UNSEEN
         self.known += len(known)
-        verdicts, ever_listed = [], False
         self.apart.append([])
         for n in known:
             if math.hypot(*truth[n]) <= LEAST_TRUE_PX * unit:
                 continue
-            found = verdict(frames[n].motion, truth[n]) if frames[n].is_felt else "none"
-            verdicts.append((n, found))
+            found = verdict(frames[n].motion, truth[n]) if frames[n].is_felt else ""
             self.apart[-1].append(apart(frames[n].motion, truth[n]) if frames[n].is_felt else None)
             self.counted += 1
-            self.felt += frames[n].is_felt
             self.right += found == "right"
             self.right_px_s[-1] += [frames[n].speed_px_s] * (found == "right")
             self.wrong += found == "wrong"
-            listed = any(verdict(each, truth[n]) == "right" for each in frames[n].objects)
-            self.listed += listed
-            ever_listed |= listed
-            if found != "right":
-                self.causes["another" if listed and frames[n].is_felt else "not felt" if listed else
-                            "no camera" if not frames[n].has_camera else "not found" if ever_listed else "not yet"] += 1
-        motion = [frame.motion for frame in frames]
-        for each, to in ((motion, self.jitters), (truth, self.true_jitters)):
-            value = jitter_px(each, set(known))
-            if value is not None:
-                to.append(value / unit)
-        return verdicts
-
-    def add_calm(self, frames):
-        before_N, last = None, None
-        for frame in frames:
-            if frame.force_N is None:
-                return
-            self.has_force = True
-            self.seconds += frame.seconds
-            felt = math.hypot(*frame.force_N) >= FELT_N
-            felt_before = before_N is not None and math.hypot(*before_N) >= FELT_N
-            self.starts += felt and not felt_before
-            self.turns += felt and felt_before and sum(p * q for p, q in zip(frame.force_N, before_N)) < 0
-            before_N = frame.force_N
-            if felt and frame.felt_object not in (0, last):  # 0: none, the force fades
-                self.changes, last = self.changes + (last is not None), frame.felt_object
 
     def trade_row(self, name):
         """What becomes of right and false if only faster motions count as felt."""
@@ -288,17 +223,11 @@ class Tally:
 
     def row(self, name):
         of = lambda part, whole="counted": share([(film.get(part, 0), film[whole]) for film in self.films])
-        middle = lambda values: f"{statistics.median(values):.2f}" if values else "-"
-        calm = ", ".join(f"{60 * n / self.seconds:.1f}" for n in (self.changes, self.turns, self.starts)
-                         ) if self.has_force and self.seconds else "-"
-        causes = ", ".join(of(cause) for cause in CAUSES) if self.has_force else "-"
         times = sorted(self.times_ms)
         ms = f"{times[len(times) // 2]:.2f}, {times[len(times) * 99 // 100]:.2f}, {times[-1]:.2f}" if times else "-"
         by_film = mean_of_films([(film.get("right", 0), film["counted"]) for film in self.films])
-        return (f"| {name} | {of('right')} | {by_film} | {of('known', 'with_object')} | {of('wrong')} | {of('felt')} "
-                f"| {of('false', 'without_object')} "
-                f"| {of('listed') if self.has_force else '-'} | {causes} | {calm} "
-                f"| {middle(self.jitters)} ({middle(self.true_jitters)}) | {ms} |")
+        return (f"| {name} | {of('right')} | {by_film} | {of('known', 'with_object')} | {of('wrong')} "
+                f"| {of('false', 'without_object')} | {ms} |")
 
 
 def films_of(folders):
@@ -312,7 +241,7 @@ def films_of(folders):
 
 
 def main():
-    build, older = Path(os.environ.get("BUILD", "build")).resolve(), os.environ.get("OLDER")
+    build = Path(os.environ.get("BUILD", "build")).resolve()
     parser = argparse.ArgumentParser(usage="tests/bench/real_films.sh FOLDER... [--other NAME=FOLDER]...")
     parser.add_argument("folders", nargs="+", type=Path)
     parser.add_argument("--other", action="append", default=[])
@@ -325,9 +254,8 @@ def main():
     for _, folder in others:  # before minutes of work
         for film in films:
             read_motion(other_file(folder, film))
-    for each in [build] + ([Path(older)] if older else []):
-        if not list((each / "plugin").glob("libgstspidar.*")):
-            sys.exit(f"real_films.py: no plugin in {each}/plugin: build it with meson compile")
+    if not list((build / "plugin").glob("libgstspidar.*")):
+        sys.exit(f"real_films.py: no plugin in {build}/plugin: build it with meson compile")
     program = build / "tests" / "bench" / "spidar-bench"
     measures = program.exists() and "real_film" in subprocess.run([program], check=False, stdout=subprocess.PIPE,
                                                                   text=True).stdout
@@ -336,27 +264,13 @@ def main():
 
     tallies = {}
     played = {}  # the frames of each film
-    models = Counter()  # of the camera's motion, by frames
-    rows = {}  # name of a row: the verdict of each frame, by film
-    each_film = {}
     print_head(*COLUMNS)
-    runs = [("this version", build, ()), ("closest to the paper", build, PAPER)]
-    runs += [("the other version", Path(older).resolve(), ())] if older else []
-    for name, which, properties in runs:
+    for name, properties in (("this version", ()), ("closest to the paper", PAPER)):
         tally = Tally()
         for film in films:
-            times_ms = (measure(program, "paper" if properties else "object:1", film)[1]
-                        if measures and which == build else ())
-            frames, truth = play(which, film, properties), read_truth(film)
-            played[film] = frames
-            if name == "this version":
-                models.update(frame.model for frame in frames[UNSEEN:])
-            rows.setdefault(name, {})[film.name] = tally.add(frames, truth, times_ms)
-            if not properties:
-                alone = Tally()
-                alone.add(frames, truth, times_ms)
-                each_film.setdefault(film.name, []).append(
-                    alone.row(film.name if which == build else f"{film.name}, the other version"))
+            times_ms = measure(program, "paper" if properties else "object:1", film)[1] if measures else ()
+            played[film] = play(build, film, properties)
+            tally.add(played[film], read_truth(film), times_ms)
         print(tally.row(name), flush=True)
         tallies[name] = tally
     for method, name in METHODS.items() if measures else ():
@@ -374,8 +288,6 @@ def main():
         print(tally.row(name), flush=True)
         tallies[name] = tally
 
-    print("\nThe camera's motion, % of the frames: " + ", ".join(
-        f"{model} {100 * n / sum(models.values()):.0f}" for model, n in models.most_common()))
     print("\nRight %, if another angle (at a factor of 2) or another factor (at 30°) counts as right:\n")
     print_head(*CURVE_COLUMNS)
     print("\n".join(curve(name, tally.apart) for name, tally in tallies.items()))
@@ -391,16 +303,6 @@ def main():
     print_head("", *tallies)
     for film, *cells in zip(films, *(tally.film_cells() for tally in tallies.values())):
         print(" | ".join([f"| {film.stem}", *cells]) + " |")
-    print("\nEach film, all columns:\n")
-    print_head(*COLUMNS)
-    print("\n".join(row for rows_of_film in each_film.values() for row in rows_of_film))
-    if older:
-        print("\nFrames that are judged in another way by the other version:\n")
-        for film, verdicts in rows["this version"].items():
-            changed = [f"{n}: {now or 'neither'} ({before or 'neither'})" for (n, now), (_, before)
-                       in zip(verdicts, rows["the other version"][film]) if now != before]
-            if changed:
-                print(f"{film}: {', '.join(changed)}")
 
 
 if __name__ == "__main__":
