@@ -181,72 +181,6 @@ void print_fits(ModelKind kind, const Placement& placement) {
               conditions[25], 100.0 * answered / kCases, worst_px, not_finite);
 }
 
-// --- robust fits
-
-struct Group {
-  const char* name;
-  std::function<Displacement(test::RandomMotion&, size_t i)> point;
-};
-
-void print_robust() {
-  const Vector2d shift_px(3, -2);
-  const auto right = [&](test::RandomMotion& random) {
-    const Vector2d at_px = in_box(random, 427, 240);
-    return Displacement{at_px, shift_px + in_box(random, 0.2, 0.2)};
-  };
-  const auto anywhere = [](test::RandomMotion& random) {
-    return Displacement{in_box(random, 427, 240), in_box(random, 60, 60)};
-  };
-  const Group groups[] = {
-      {"30 % outliers",
-       [&](auto& random, size_t i) { return i % 10 < 3 ? anywhere(random) : right(random); }},
-      {"60 % outliers",
-       [&](auto& random, size_t i) { return i % 10 < 6 ? anywhere(random) : right(random); }},
-      {"40 % that agree on something else",
-       [&](auto& random, size_t i) {
-         Displacement point = right(random);
-         if (i % 10 < 4) point.moved_px += Vector2d(-7, 5);
-         return point;
-       }},
-      {"on a line, 30 % outliers",
-       [&](auto& random, size_t i) {
-         Displacement point = i % 10 < 3 ? anywhere(random) : right(random);
-         point.at_px.y() = point.at_px.x() / 2;
-         return point;
-       }},
-      {"in one position", [&](auto& random, size_t) {
-         Displacement point = right(random);
-         point.at_px = {10, 10};
-         return point;
-       }}};
-  std::printf(
-      "\n| robust fits of a similarity | answered | error > 0.3 px | worst, px | not finite |\n"
-      "|---|---|---|---|---|\n");
-  for (const Group& group : groups) {
-    test::RandomMotion random(11);
-    int answered = 0, wrong = 0, not_finite = 0;
-    double worst_px = 0;
-    for (int n = 0; n < kCases; ++n) {
-      WeightedDisplacements evidence;
-      for (size_t i = 0; i < kPoints; ++i) evidence.points.push_back(group.point(random, i));
-      evidence.weights.assign(kPoints, 1);
-      evidence.sigma_px = kUsualNoise_px;
-      const MotionModel start = find_start(evidence, {MotionModel()});
-      const auto found = fit_robustly(ModelKind::kSimilarity, start, evidence);
-      if (!found) continue;
-      ++answered;
-      double error_px = 0;
-      for (const Displacement& point : evidence.points)
-        error_px = std::max(error_px, (found->displacement_px(point.at_px) - shift_px).norm());
-      not_finite += !std::isfinite(error_px);
-      wrong += error_px > 0.3;
-      worst_px = std::max(worst_px, error_px);
-    }
-    std::printf("| %s | %.1f %% | %.1f %% | %.1e | %d |\n", group.name, 100.0 * answered / kCases,
-                100.0 * wrong / std::max(answered, 1), worst_px, not_finite);
-  }
-}
-
 // --- pictures
 
 void print_pictures() {
@@ -377,7 +311,6 @@ int spidar::bench::stability(int, char**) {
                                ModelKind::kHomography}) {
     for (const Placement& placement : placements()) print_fits(kind, placement);
   }
-  print_robust();
   print_pictures();
   print_poses();
   return 0;

@@ -11,8 +11,7 @@ FOLDER holds sequences in either of two layouts, at any depth (links to folders 
   boxes, as in OTB and VOT: NAME/img/*.jpg (or imgs, or NAME/*.jpg) and NAME/groundtruth*.txt, a line
     for each frame with x, y, width, height, or the corners x1, y1, x2, y2, ….
 For each sequence, OUT gets the film NAME.mkv, its frames as they are, and NAME.csv: lines `frame,x,y`,
-the motion of the object against the background since the frame before, in pixels of the film. Where the
-mask leaves free a rectangle of which the camera's motion shows something, still-NAME.mkv is a cut of it. With --clips, OUT
+the motion of the object against the background since the frame before, in pixels of the film. With --clips, OUT
 gets those of the table that FOLDER has, under names that do not tell what moves: their frames, cut as it says. Pictures
 that are not those of the table are named.
 
@@ -45,9 +44,6 @@ LEAST_INLIERS = 0.6
 MOST_GROWTH = 0.15  # of the area in a frame, as a logarithm
 LEAST_CORNERS = 12  # on the object
 LEAST_OUTSIDE = 40
-# A cut without the object is at least this share of each side and so many frames long, and the picture
-# moves by so much in most of its frames.
-CUT_SIDE, CUT_FRAMES, CUT_MOVES_PX = 0.45, 20, 1.0
 PICTURES = {".jpg", ".jpeg", ".png"}
 
 
@@ -166,10 +162,10 @@ def smooth(values):
 
 
 def measure(frames, objects, unit):
-    """Motion of the object in each frame, NaN where it is not certain; motion of the picture."""
+    """Motion of the object in each frame, NaN where it is not certain."""
     n = len(frames)
     by_corners, by_centre = np.full((n, 2), np.nan), np.full((n, 2), np.nan)
-    certain, alone, camera_px = np.zeros(n, bool), np.zeros(n, bool), np.zeros(n)
+    certain, alone = np.zeros(n, bool), np.zeros(n, bool)
     around = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (int(2 * MARGIN_PX * unit) + 1,) * 2)
     before = gray_of(frames[0])
     for i in range(1, n):
@@ -182,7 +178,6 @@ def measure(frames, objects, unit):
             homography, inliers = cv2.findHomography(a, b, cv2.USAC_MAGSAC, unit)
             if homography is not None:
                 certain[i] = inliers.mean() > LEAST_INLIERS
-                camera_px[i] = np.median(np.linalg.norm(b - a, axis=1))
                 p, q = follow(before, now, inside, 200)
                 if len(p) >= LEAST_CORNERS:
                     relative = q - moved_by(homography, p)
@@ -198,51 +193,11 @@ def measure(frames, objects, unit):
     agree = certain & (apart < np.fmax(AGREE_PX * unit, AGREE_SHARE * size))
     alone &= certain & np.isnan(by_centre[:, 0])
     either = np.where(alone[:, None], by_corners, np.nan)
-    return np.where(agree[:, None], (by_centre + by_corners) / 2, either), camera_px
+    return np.where(agree[:, None], (by_centre + by_corners) / 2, either)
 
 
 def gray_of(file):
     return cv2.imread(str(file), cv2.IMREAD_GRAYSCALE)
-
-
-def largest_free(taken):
-    """The largest rectangle of an image that is 0 everywhere: x, y, width, height."""
-    height, width = taken.shape
-    column, best, area = np.zeros(width, int), (0, 0, 0, 0), 0
-    for y in range(height):
-        column = np.where(taken[y] == 0, column + 1, 0)
-        stack = []
-        for x in range(width + 1):
-            tall, start = (column[x] if x < width else 0), x
-            while stack and stack[-1][1] >= tall:
-                start, h = stack.pop()
-                if h * (x - start) > area:
-                    area, best = h * (x - start), (start, y - h + 1, x - start, h)
-            stack.append((start, tall))
-    return best
-
-
-def cut_without(objects, camera_px, unit):
-    """The largest cut that the object never enters: first and last frame, and its rectangle in px."""
-    height, width = objects.size
-    cell = 8
-    around = np.ones((int(2 * MARGIN_PX * unit) + 1,) * 2, np.uint8)
-    maps = []
-    for n in range(len(camera_px)):
-        mask = cv2.dilate(objects.mask(n), around)
-        maps.append(cv2.resize(mask, (width // cell, height // cell), interpolation=cv2.INTER_AREA) > 0)
-    n, best = len(maps), None
-    for parts in (1, 2, 3):
-        length = n // parts
-        if length < CUT_FRAMES:
-            break
-        for start in range(0, n - length + 1, length):
-            x, y, w, h = largest_free(np.any(maps[start:start + length], axis=0).astype(np.uint8))
-            moves = np.median(camera_px[start + 1:start + length]) > CUT_MOVES_PX * unit
-            large = w * cell >= CUT_SIDE * width and h * cell >= CUT_SIDE * height
-            if moves and large and (best is None or w * h * length > best[0]):
-                best = w * h * length, start, start + length, (x * cell, y * cell, w * cell, h * cell)
-    return best[1:] if best else None
 
 
 def make_film(frames, film, fps, crop=None):
@@ -256,17 +211,15 @@ def make_film(frames, film, fps, crop=None):
 
 
 def write_film(name, frames, given, arguments, has_object=True, crop=None):
-    """The film, and its truth if it has an object; returns the objects, and the motion of the picture."""
-    size = gray_of(frames[0]).shape
-    objects = Objects(given, size)
+    """The film, and its truth if it has an object."""
     make_film(frames, arguments.out / f"{name}.mkv", arguments.fps, crop)
-    motion, camera_px = measure(frames, objects, size[0] / LINES)
     if has_object:
+        size = gray_of(frames[0]).shape
+        motion = measure(frames, Objects(given, size), size[0] / LINES)
         known = [n for n in range(len(frames)) if not np.isnan(motion[n, 0])]
         lines = [f"{n},{motion[n, 0]:.3f},{motion[n, 1]:.3f}\n" for n in known]
         (arguments.out / f"{name}.csv").write_text("".join(lines))
         print(f"{name}: {len(frames)} frames, motion known in {len(known)}")
-    return objects, camera_px
 
 
 def write_clips(sequence, frames, given, arguments):
@@ -299,14 +252,7 @@ def main():
     made = 0
     for name, frames, given in find_sequences(arguments.folder):
         made += 1
-        if arguments.clips:
-            write_clips(name, frames, given, arguments)
-            continue
-        objects, camera_px = write_film(name, frames, given, arguments)
-        objects.known = {}
-        if cut := cut_without(objects, camera_px, objects.size[0] / LINES):
-            make_film(frames[cut[0]:cut[1]], arguments.out / f"still-{name}.mkv", arguments.fps, cut[2])
-            print(f"{name}: a cut of {cut[1] - cut[0]} frames without the object")
+        (write_clips if arguments.clips else write_film)(name, frames, given, arguments)
     if made == 0:
         sys.exit(f"truth.py: {arguments.folder} has neither Annotations with masks nor groundtruth*.txt with boxes")
 
