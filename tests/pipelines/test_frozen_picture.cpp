@@ -34,24 +34,5 @@ TEST(FrozenPicture, TheClockStandsStill) {
   EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
 }
 
-TEST(FrozenPicture, AGapWhoseEndIsKnown) {
-  constexpr GstClockTime kGap = 200 * GST_MSECOND;
-  SteppedPipeline pipeline(kPlayer);
-  pipeline.retime([](int n, GstClockTime pts) { return n < kBefore ? pts : pts + kGap; });
-  pipeline.set_state(GST_STATE_PLAYING);
-  play(pipeline, kBefore);
-  pipeline.await();  // the last frame before the gap is on the screen, and the next one waits
-  EXPECT_GT(pipeline.idle(10 * GST_MSECOND).commanded.force_N.norm(), 0.01);
-  EXPECT_EQ(pipeline.idle(kRest - 10 * GST_MSECOND).commanded.stacked().norm(), 0);
-  const GstClockTime shown = pipeline.running_time();
-  const GstClockTime next = kBefore * kFrame + kGap;
-  EXPECT_EQ(pipeline.idle(next - shown - 40 * GST_MSECOND).commanded.stacked().norm(), 0);
-  // Back before the frame is shown, and there in time.
-  EXPECT_GT(pipeline.idle(39 * GST_MSECOND).commanded.stacked().norm(), 0);
-  const TickRecord tick = pipeline.step();
-  expect_wrench_of_frame(pipeline, tick);
-  EXPECT_EQ(tick.commanded.force_N, tick.wanted.force_N);
-}
-
 }  // namespace
 }  // namespace spidar::test::frozen_picture_test
