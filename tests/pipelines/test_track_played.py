@@ -91,7 +91,6 @@ class Channels(TrackPlayedCase):
             self.expect_felt(f"{VIDEO} spidarmotion track={track} ! fakesink sync=true")
 
 
-
 class BadTracks(TrackPlayedCase):
     # The words that name what is wrong, channels, rate in Hz, and mask.
     CASES = (("5 channels", 5, 1000, 0x37), ("8 channels", 8, 1000, 0xc3f), ("not 48000", 6, 48000, 0x3f),
