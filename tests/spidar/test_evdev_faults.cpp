@@ -8,7 +8,7 @@
 #include "spidar/devices/force_feedback/evdev_transport.h"
 #include "spidar/link/force_grip.h"
 #include "spidar/session/haptic_session.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/test.h"
@@ -16,16 +16,8 @@
 namespace spidar::test::evdev_faults_test {
 namespace {
 
-class EvdevFaults : public testing::Test {
+class EvdevFaults : public BusTest {
  protected:
-  EvdevFaults() { clear_bus(); }
-  ~EvdevFaults() override { clear_bus(); }
-
-  static boards::Settings alone() {
-    boards::Settings settings;
-    settings.threaded = settings.guardian = false;
-    return settings;
-  }
   std::unique_ptr<boards::ForceBoard> board(boards::StickEffects::Updates updates) const {
     return std::make_unique<boards::ForceFeedback>(
         "ff", profile, std::make_unique<EvdevTransport>("ff", ""), updates);
@@ -34,7 +26,7 @@ class EvdevFaults : public testing::Test {
   /// Without any thread: it communicates with the driver once in kUpdate_ms exchanges.
   std::unique_ptr<boards::ForceLink> stepped() const {
     return std::make_unique<boards::ForceLink>(board(boards::StickEffects::Updates::kInCycle),
-                                               alone());
+                                               unguarded());
   }
 
   const Profile profile = load_profile(kDefaultProfile);
@@ -129,19 +121,6 @@ TEST_F(EvdevFaults, ForcesBeyondFullLevelAreCutAndKeepTheirDirection) {
   EXPECT_EQ(evdev_levels(0).right, -ff::kFullLevel);
 }
 
-TEST_F(EvdevFaults, WheelsAndPadsCutForcesToo) {
-  for (const EvdevKind kind : {EvdevKind::kWheel, EvdevKind::kPad}) {
-    plug_evdev(0, kind);
-    const auto device = stepped();
-    device->open();
-    ASSERT_EQ(exchange(*device, pushing(1e9, 1e9), reading), LinkFault::kNone);
-    const EvdevLevels levels = evdev_levels(0);
-    EXPECT_EQ(levels.right, kind == EvdevKind::kWheel ? ff::kFullLevel : 0);
-    EXPECT_EQ(levels.rumble, kind == EvdevKind::kPad ? ff::kFullStrength : 0);
-    EXPECT_EQ(levels.up, 0);
-  }
-}
-
 TEST_F(EvdevFaults, APositionBeyondItsAxisIsTheEndOfTheAxis) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   const auto device = stepped();
@@ -170,13 +149,8 @@ TEST_F(EvdevFaults, AfterItFailedToOpenNothingIsLeftAndItOpensAgain) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
   const auto device = stepped();
   const auto refuses = [&](const char* what) {
-    try {
-      device->open();
-      ADD_FAILURE() << what;
-    } catch (const DeviceError& error) {
-      const std::string said = error.what();
-      EXPECT_EQ(said.find("ff: \"Emulated Stick\" does not take an effect: "), 0u) << said;
-    }
+    EXPECT_EQ(opening(*device).find("ff: \"Emulated Stick\" does not take an effect: "), 0u)
+        << what;
     EXPECT_TRUE(evdev_levels(0).at_rest());
     for (const EvdevPort::Effect& effect : port.effect) EXPECT_FALSE(effect.used) << what;
   };
@@ -221,11 +195,9 @@ TEST_F(EvdevFaults, ADriverThatFailsComesToRest) {
 /// driver, it would never end.
 TEST_F(EvdevFaults, NoTickWaitsForADriverThatHangs) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  SessionSettings by_hand;
-  by_hand.threaded = false;
   HapticSession session(std::make_unique<boards::ForceGrip>(std::make_unique<boards::ForceLink>(
-                            board(boards::StickEffects::Updates::kOwnThread), alone())),
-                        by_hand);
+                            board(boards::StickEffects::Updates::kOwnThread), unguarded())),
+                        by_hand());
   int64_t now_ns = 0;
   const auto tick = [&] {
     now_ns += kTick_ns;

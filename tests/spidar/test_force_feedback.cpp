@@ -8,7 +8,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/temporary_folder.h"
@@ -21,24 +21,11 @@ constexpr int64_t kMs = 1'000'000;
 /// 20 % of 0xFFFF.
 constexpr int kGain = 13107;
 
-/// The message of open(); empty on success.
-std::string opening(const std::string& spec) {
-  boards::Settings settings;
-  settings.guardian = false;
-  const auto device = make_grip(spec, load_profile(kDefaultProfile), settings);
-  try {
-    device->open();
-    return {};
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
+std::unique_ptr<Grip> grip(const std::string& spec = "ff") {
+  return make_grip(spec, load_profile(kDefaultProfile), unguarded(true));
 }
 
-class ForceFeedback : public testing::Test {
- protected:
-  ForceFeedback() { clear_bus(); }
-  ~ForceFeedback() override { clear_bus(); }
-};
+class ForceFeedback : public BusTest {};
 
 TEST_F(ForceFeedback, IsListedWithoutBeingOpened) {
   plug_evdev(0, EvdevKind::kKeyboard);
@@ -205,9 +192,7 @@ TEST_F(ForceFeedback, AnExchangeOfZerosChangesNoSetting) {
   for (const char* driver : {"logitech", "hid-generic"}) {
     EvdevPort& port = plug_evdev(0, EvdevKind::kStick, driver);
     const int before = port.autocentre;
-    boards::Settings settings;
-    settings.guardian = false;
-    const auto device = make_grip("ff", load_profile(kDefaultProfile), settings);
+    const auto device = grip();
     device->open();
     // Until the thread that sets levels has shown the position twice, so it has done an update.
     const auto read_m = [&] {
@@ -240,9 +225,7 @@ TEST_F(ForceFeedback, TheDriverIsFoundThroughALink) {
 /// The loop's own ramp, and one update for each axis, in ticks.
 TEST_F(ForceFeedback, IsAtZeroWithin60MsOfAPause) {
   ForceBench bench("ff");
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  HapticSession session(bench.grip(), by_hand);
+  HapticSession session(bench.grip(), by_hand());
   int64_t now_ns = 0;
   const auto tick = [&] {
     now_ns += kTick_ns;
@@ -273,13 +256,12 @@ TEST_F(ForceFeedback, ItsNameIsHarmless) {
               "?]0;title??Stick at 20 % of its strength, force feedback on two axes");
   }
   bus().evdev[0].upload_error = ENOSPC;
-  EXPECT_NE(opening("ff").find("\"?]0;title??Stick\" does not take"), std::string::npos);
+  expect_contains(opening(*grip()), "\"?]0;title??Stick\" does not take");
 }
 
 TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
   const auto says = [](const std::string& spec, const std::string& what) {
-    const std::string said = opening(spec);
-    EXPECT_NE(said.find(what), std::string::npos) << said;
+    expect_contains(opening(*grip(spec)), what);
   };
   says("ff", "no joystick, wheel or gamepad with force feedback is plugged in");
   says("ff:/dev/input/event7", "spidarctl list names");
@@ -301,11 +283,9 @@ TEST_F(ForceFeedback, OpeningSaysWhatIsWrong) {
   port.upload_error = EIO;
   says("ff", "does not take an effect: Input/output error; plug the device in again");
   port.upload_error = 0;
-  EXPECT_EQ(opening("ff"), "");
+  EXPECT_EQ(opening(*grip()), "");
   // Without a loop, which may lose it for a moment on a busy machine.
-  boards::Settings settings;
-  settings.guardian = false;
-  const auto first = make_grip("ff", load_profile(kDefaultProfile), settings);
+  const auto first = grip();
   first->open();
   says("ff:/dev/input/event1", "another program uses it");
 }

@@ -8,7 +8,7 @@
 #include "spidar/devices/force_feedback/evdev_transport.h"
 #include "spidar/devices/force_feedback/stick_effects.h"
 #include "spidar/realtime/thread_setup.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/pushed_grip.h"
@@ -27,103 +27,17 @@ ff::Position swinging(int64_t now_ns, int half_ms) {
   return {static_cast<int16_t>(std::lround(ff::Position::kFull * std::sin(phase))), 0};
 }
 
-TEST(UpdateWatch, AFailedUpdateIsReportedOnce) {
-  boards::UpdateWatch watch;
-  watch.start(0);
-  int64_t now_ns = 0;
-  for (int i = 0; i < 10; ++i) {
-    now_ns += 55 * kMs;
-    watch.finish(i % 2 ? LinkFault::kNone : LinkFault::kBusError, now_ns);
-    int reports = 0;
-    for (int ms = 0; ms < 40; ++ms)
-      reports += watch.report(now_ns + ms * kMs) == LinkFault::kBusError;
-    EXPECT_EQ(reports, i % 2 ? 0 : 1) << i;
-  }
-}
-
-TEST(UpdateWatch, FailuresInARowAreReportedUntilAnUpdateSucceeds) {
-  boards::UpdateWatch watch;
-  watch.start(0);
-  for (uint32_t failure = 1; failure <= boards::UpdateWatch::kFailures; ++failure) {
-    watch.finish(LinkFault::kStall, failure * 5 * kMs);
-    EXPECT_EQ(watch.report(failure * 5 * kMs), LinkFault::kStall);
-    EXPECT_EQ(watch.report((failure * 5 + 1) * kMs),
-              failure < boards::UpdateWatch::kFailures ? LinkFault::kNone : LinkFault::kStall);
-  }
-  watch.finish(LinkFault::kNone, 20 * kMs);
-  EXPECT_EQ(watch.report(20 * kMs), LinkFault::kNone);
-  // An exchange that is late does not miss it.
-  watch.finish(LinkFault::kStall, 25 * kMs);
-  watch.finish(LinkFault::kNone, 30 * kMs);
-  EXPECT_EQ(watch.report(30 * kMs), LinkFault::kStall);
-  EXPECT_EQ(watch.report(31 * kMs), LinkFault::kNone);
-}
-
-TEST(UpdateWatch, ADriverThatDoesNotReturnInTimeIsReported) {
-  boards::UpdateWatch watch;
-  watch.start(0);
-  EXPECT_EQ(watch.report(boards::UpdateWatch::kTimeout_ns), LinkFault::kNone);
-  EXPECT_EQ(watch.report(boards::UpdateWatch::kTimeout_ns + 1), LinkFault::kTimeout);
-  const int64_t again_ns = 3 * kSecond_ns;
-  watch.finish(LinkFault::kNone, again_ns);
-  EXPECT_EQ(watch.report(again_ns), LinkFault::kNone);
-}
-
-/// Steps of the readings are 20, 15 and 13 mm.
-TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
-  const double reach_m = 0.059 / 2;
-  for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
-    boards::StickPosition place;
-    place.start(swinging(0, half_ms), 0);
-    double largest_m = 0, read_m = 0, largest_read_m = 0;
-    for (int64_t ms = 1; ms < 1000; ++ms) {
-      const double before_m = reach_m * place.fraction().x();
-      if (ms % update_ms == 0) {
-        // The previous reading has arrived when the next one is taken.
-        place.advance(ms * kMs);
-        EXPECT_NEAR(reach_m * place.fraction().x(), read_m, 1e-12);
-        const ff::Position position = swinging(ms * kMs, half_ms);
-        place.update(position, ms * kMs);
-        const double now_m = reach_m * position.right / ff::Position::kFull;
-        largest_read_m = std::max(largest_read_m, std::abs(now_m - read_m));
-        read_m = now_m;
-      }
-      place.advance(ms * kMs);
-      largest_m = std::max(largest_m, std::abs(reach_m * place.fraction().x() - before_m));
-    }
-    EXPECT_GT(largest_read_m, 10e-3);
-    // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
-    const double fastest_m = reach_m * M_PI / half_ms + reach_m / ff::Position::kFull;
-    EXPECT_LE(largest_m, fastest_m);
-  }
-}
-
-TEST(StickPosition, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
-  boards::StickPosition place;
-  place.start({100, 200}, 0);
-  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0.01, 0.02));
-  place.update({10'000, -10'000}, 3 * kSecond_ns);
-  place.advance(3 * kSecond_ns);
-  EXPECT_LT(place.fraction().x(), 1);
-  place.advance(3 * kSecond_ns + boards::StickPosition::kLongest_ns);
-  EXPECT_EQ(place.fraction(), Eigen::Vector2d(1, -1));
-  place.update({0, 0}, 4 * kSecond_ns);
-  place.advance(5 * kSecond_ns);
-  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0, 0));
-}
-
-class ForceFeedbackFaults : public testing::Test {
+class ForceFeedbackFaults : public BusTest {
  protected:
-  ForceFeedbackFaults() { clear_bus(); }
-  ~ForceFeedbackFaults() override { clear_bus(); }
+  static std::unique_ptr<Grip> stepped() {
+    return make_grip("ff", load_profile(kDefaultProfile), unguarded());
+  }
 };
 
 /// 13 mm between two updates of a fast driver.
 TEST_F(ForceFeedbackFaults, AFastHandLosesNoPose) {
   ForceBench bench("ff");
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  HapticSession session(bench.grip(), by_hand);
+  HapticSession session(bench.grip(), by_hand());
   for (int64_t now_ns = kTick_ns; now_ns < 2 * kSecond_ns; now_ns += kTick_ns) {
     if (now_ns > kSecond_ns / 2) bench.motors.count[0] = swinging(now_ns, 35).right;
     session.loop().tick(now_ns, now_ns);
@@ -136,13 +50,8 @@ TEST_F(ForceFeedbackFaults, AFastHandLosesNoPose) {
 /// that all is well. The test makes the ticks, so that no other thread can be too late for them.
 TEST_F(ForceFeedbackFaults, ADriverThatHangsIsATimeOut) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  boards::Settings settings;
-  settings.guardian = settings.threaded = false;
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  const Profile profile = load_profile(kDefaultProfile);
   {
-    HapticSession session(make_grip("ff", profile, settings), by_hand);
+    HapticSession session(stepped(), by_hand());
     const auto tick = [&loop = session.loop()] {
       const int64_t now_ns = monotonic_now_ns() + kTick_ns;
       sleep_until_ns(now_ns);
@@ -179,10 +88,7 @@ TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
     wait_for([] { return evdev_levels(0).at_rest(); });
     port.hangs = false;
   }
-  boards::Settings settings;
-  settings.guardian = settings.threaded = false;
-  const Profile profile = load_profile(kDefaultProfile);
-  const auto device = make_grip("ff", profile, settings);
+  const auto device = stepped();
   device->open();
   wait_for([&] {
     device->exchange(told(1));
@@ -194,10 +100,7 @@ TEST_F(ForceFeedbackFaults, AnEffectEndsWhenTheLoopOrTheDriverHangs) {
 /// Only then are the effects ended; and nobody else gets the device before.
 TEST_F(ForceFeedbackFaults, ADriverThatHangsDoesNotKeepTheDeviceFromBeingClosed) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick);
-  boards::Settings settings;
-  settings.guardian = settings.threaded = false;
-  const Profile profile = load_profile(kDefaultProfile);
-  const auto device = make_grip("ff", profile, settings);
+  const auto device = stepped();
   {
     const FeltPlayer player;
     player.push(2, 0);
@@ -212,14 +115,7 @@ TEST_F(ForceFeedbackFaults, ADriverThatHangsDoesNotKeepTheDeviceFromBeingClosed)
   EXPECT_THROW(device->open(), DeviceError);
   port.hangs = false;
   wait_for([] { return evdev_levels(0).at_rest(); });
-  wait_for([&] {
-    try {
-      device->open();
-      return true;
-    } catch (const DeviceError&) {
-      return false;
-    }
-  });
+  wait_for([&] { return opening(*device).empty(); });
 }
 
 TEST_F(ForceFeedbackFaults, OneFailedUpdateOfASlowDriverIsNoLoss) {

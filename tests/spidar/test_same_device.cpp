@@ -4,35 +4,23 @@
 /// means by then.
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::same_device_test {
 namespace {
 
-class SameDevice : public testing::Test {
+class SameDevice : public BusTest {
  protected:
-  SameDevice() { clear_bus(); }
-  ~SameDevice() override { clear_bus(); }
-
   static std::unique_ptr<Grip> grip(const std::string& spec, const char* profile) {
-    boards::Settings settings;
-    settings.guardian = false;
-    settings.threaded = false;
-    return make_grip(spec, load_profile(profile), settings);
+    return make_grip(spec, load_profile(profile), unguarded());
   }
 };
 
-/// The message of open(); empty on success.
-std::string opening(Grip& grip) {
+std::string reopening(Grip& grip) {
   grip.close();
-  try {
-    grip.open();
-    return {};
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
+  return opening(grip);
 }
 
 bool is_refused(const std::string& said) {
@@ -65,13 +53,13 @@ TEST_F(SameDevice, IsTheOnlyOneThatComesBackOnUsb) {
       return &plugged;
     };
     plug_in(0, c.kind, c.serial);
-    ASSERT_EQ(opening(*grip), "");
+    ASSERT_EQ(reopening(*grip), "");
     unplug(0);
-    EXPECT_FALSE(is_refused(opening(*grip)));
+    EXPECT_FALSE(is_refused(reopening(*grip)));
     const UsbPort* const other = plug_in(0, c.then, c.then_serial);
     const uint64_t updates = other->updates;
     for (int times = 0; times < 2; ++times) {
-      const std::string said = opening(*grip);
+      const std::string said = reopening(*grip);
       EXPECT_TRUE(is_refused(said)) << said;
     }
     EXPECT_EQ(other->updates, updates) << "it was opened";
@@ -82,9 +70,8 @@ TEST_F(SameDevice, IsTheOnlyOneThatComesBackOnUsb) {
       unplug(0);
       plug_in(0, c.kind, c.serial);
     }
-    EXPECT_EQ(opening(*grip), "");
-    EXPECT_NE(grip->description().find(*c.serial ? "1-3" : "1-1"), std::string::npos)
-        << grip->description();
+    EXPECT_EQ(reopening(*grip), "");
+    expect_contains(grip->description(), *c.serial ? "1-3" : "1-1");
     clear_bus();
   }
 }
@@ -92,30 +79,30 @@ TEST_F(SameDevice, IsTheOnlyOneThatComesBackOnUsb) {
 TEST_F(SameDevice, WithoutASerialNumberIsInItsPortAndHasItsSwitch) {
   plug(0, "sh4").inputs = 0x30;
   const auto grip = SameDevice::grip("usb", "spidar-g645");
-  ASSERT_EQ(opening(*grip), "");
+  ASSERT_EQ(reopening(*grip), "");
   unplug(0);
   plug(1, "sh4").inputs = 0x30;
-  const std::string elsewhere = opening(*grip);
+  const std::string elsewhere = reopening(*grip);
   EXPECT_TRUE(is_refused(elsewhere)) << elsewhere;
   plug(0, "sh4").inputs = 0x50;
-  const std::string other_switch = opening(*grip);
+  const std::string other_switch = reopening(*grip);
   EXPECT_TRUE(is_refused(other_switch)) << other_switch;
-  EXPECT_NE(other_switch.find("rotary switch 5"), std::string::npos) << other_switch;
+  expect_contains(other_switch, "rotary switch 5");
   plug(0, "sh4").inputs = 0x30;
-  EXPECT_EQ(opening(*grip), "");
+  EXPECT_EQ(reopening(*grip), "");
 }
 
 /// Other devices have the USB ID of this one, so they are no reason to report anything.
 TEST_F(SameDevice, OfASharedIdIsAbsentUntilItIsBack) {
   plug(1, "mouse", "AAA");
   const auto mouse = SameDevice::grip("mouse", kDefaultProfile);
-  ASSERT_EQ(opening(*mouse), "");
+  ASSERT_EQ(reopening(*mouse), "");
   unplug(1);
   const UsbPort& other = plug(1, "mouse", "BBB");
-  EXPECT_NE(opening(*mouse).find("AAA is not plugged in"), std::string::npos);
+  expect_contains(reopening(*mouse), "AAA is not plugged in");
   EXPECT_EQ(other.updates, 0u);
   plug(0, "mouse", "AAA");
-  EXPECT_EQ(opening(*mouse), "");
+  EXPECT_EQ(reopening(*mouse), "");
 }
 
 struct StickCase {
@@ -143,8 +130,7 @@ TEST_F(SameDevice, IsTheOnlyOneThatComesBackAmongSticks) {
     unplug_evdev(0);
     EvdevPort& other = plug_evdev(0, c.kind, nullptr, c.other);
     wait_for([&] { return !player.loop().refusal().empty(); });
-    EXPECT_NE(player.loop().refusal().find("it gets no force"), std::string::npos)
-        << player.loop().refusal();
+    expect_contains(player.loop().refusal(), "it gets no force");
     EXPECT_TRUE(player.loop().lost());
     EXPECT_EQ(other.plays, 0u);
     EXPECT_EQ(other.settings, 0u);

@@ -8,7 +8,7 @@
 #include "spidar/realtime/monotonic.h"
 #include "spidar/selftest/stick_test.h"
 #include "spidar/session/device_factory.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/test.h"
@@ -19,11 +19,7 @@ namespace {
 /// 20 % of 0xFFFF.
 constexpr int kGain = 13107;
 
-class StickSides : public testing::Test {
- protected:
-  StickSides() { clear_bus(); }
-  ~StickSides() override { clear_bus(); }
-};
+class StickSides : public BusTest {};
 
 TEST_F(StickSides, AFifthOfTheStrengthIsUsedUnlessMoreIsAskedFor) {
   const auto used = [](EvdevKind kind, const std::string& option) {
@@ -87,11 +83,9 @@ class MovingStick {
 
 selftest::StickTest tested(size_t number, const char* option, int right, int up) {
   const MovingStick stick(number, right, up);
-  boards::Settings settings;
-  settings.guardian = false;
-  settings.threaded = false;  // a thread may get no processor for 20 exchanges
+  // Without a thread, which may get no processor for 20 exchanges.
   const auto grip = make_grip("ff:/dev/input/event" + std::to_string(number) + option,
-                              load_profile(kDefaultProfile), settings);
+                              load_profile(kDefaultProfile), unguarded());
   const auto pace = [] {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return true;
@@ -212,31 +206,29 @@ std::string report(const selftest::StickTest& test, const std::string& device,
 }
 
 TEST(StickReport, SaysWhatWasFoundAndWhatToDo) {
-  const auto contains = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << '"' << part << "\" is not in:\n" << text;
-  };
   selftest::StickTest test;
   test.moved_m = {0.012, -0.006, 0};
   test.least_spring = {0.03, 0.06, 0};
   test.spring = {0, 0.61, 0};
   const std::string text = report(test, "ff:/dev/input/event5");
-  contains(text, std::string("right    moves with the force, by 40 % of its way") + kStays +
-                     "3 % of the push\n");
-  contains(text,
-           "up       moves against the force, by 20 % of its way; a spring pulls it back with "
-           "61 % of the push\n");
-  contains(text, "Write flip=y: device=ff:PATH,flip=y\n");
-  contains(text, "spring of metal or of the device's firmware");
+  expect_contains(text, std::string("right    moves with the force, by 40 % of its way") + kStays +
+                            "3 % of the push\n");
+  expect_contains(
+      text,
+      "up       moves against the force, by 20 % of its way; a spring pulls it back with "
+      "61 % of the push\n");
+  expect_contains(text, "Write flip=y: device=ff:PATH,flip=y\n");
+  expect_contains(text, "spring of metal or of the device's firmware");
   EXPECT_EQ(text.find("does not move"), std::string::npos);
   // What is turned round already.
-  contains(report(test, "ff:/dev/input/event5,flip=x,gain=30"), "Write flip=xy: ");
-  contains(report(test, "ff:/dev/input/event5,gain=30,flip=y"), "Write no flip=y\n");
+  expect_contains(report(test, "ff:/dev/input/event5,flip=x,gain=30"), "Write flip=xy: ");
+  expect_contains(report(test, "ff:/dev/input/event5,gain=30,flip=y"), "Write no flip=y\n");
 
   const std::string still = report({}, "ff", false);
   EXPECT_EQ(still.find("up  "), std::string::npos) << still;
-  contains(still, "right    does not move: no force arrives, or ");
-  contains(still, "ff:PATH,gain=50");
-  contains(still, "fftest");
+  expect_contains(still, "right    does not move: no force arrives, or ");
+  expect_contains(still, "ff:PATH,gain=50");
+  expect_contains(still, "fftest");
   test.moved_m = {0.012, 0.006, 0};
   test.spring = {};
   EXPECT_EQ(report(test, "ff"), std::string("right    moves with the force, by 40 % of its way") +

@@ -6,7 +6,7 @@
 
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/support/pushed_grip.h"
 #include "tests/support/test.h"
 
@@ -15,15 +15,13 @@ namespace {
 
 constexpr uint16_t kHomed = 0x70;
 
-class UsbFalcon : public testing::Test {
+class UsbFalcon : public BusTest {
  protected:
   UsbFalcon() {
-    clear_bus();
     write_firmware(8492);  // bytes of the published one
     setenv("SPIDAR_FALCON_FIRMWARE", path.c_str(), 1);
   }
   ~UsbFalcon() override {
-    clear_bus();
     unsetenv("SPIDAR_FALCON_FIRMWARE");
     std::filesystem::remove(path);
   }
@@ -38,17 +36,7 @@ class UsbFalcon : public testing::Test {
     return plugged;
   }
   std::unique_ptr<Grip> grip(const std::string& spec = "falcon") const {
-    boards::Settings settings;
-    settings.guardian = settings.threaded = false;
-    return make_grip(spec, load_profile(kDefaultProfile), settings);
-  }
-  std::string opening(Grip& grip) const {
-    try {
-      grip.open();
-      return {};
-    } catch (const DeviceError& error) {
-      return error.what();
-    }
+    return make_grip(spec, load_profile(kDefaultProfile), unguarded());
   }
 
   const std::string path =
@@ -69,7 +57,7 @@ TEST_F(UsbFalcon, GetsItsFirmwareOnceAfterEachPlugIn) {
     std::filesystem::remove(path);
   }
   plug_homed(1);
-  EXPECT_NE(opening(*falcon).find(path), std::string::npos);
+  expect_contains(opening(*falcon), path);
   write_firmware(8492);
   EXPECT_EQ(opening(*falcon), "");
 }
@@ -86,13 +74,12 @@ TEST_F(UsbFalcon, SaysWhatIsWrongWithTheFirmware) {
                                   " has 100000 bytes and is no firmware of a Falcon, which has "
                                   "some 8 kB");
   write_firmware(0);
-  EXPECT_NE(opening(*grip()).find("is no firmware of a Falcon"), std::string::npos);
+  expect_contains(opening(*grip()), "is no firmware of a Falcon");
   setenv("SPIDAR_FALCON_FIRMWARE", "/tmp", 1);
-  EXPECT_NE(opening(*grip()).find("/tmp: it is not a regular file"), std::string::npos);
+  expect_contains(opening(*grip()), "/tmp: it is not a regular file");
   unsetenv("SPIDAR_FALCON_FIRMWARE");
   setenv("HOME", "/no/such/home", 1);
-  EXPECT_NE(opening(*grip()).find("/no/such/home/.local/share/gst-spidar/novint-falcon.bin"),
-            std::string::npos);
+  expect_contains(opening(*grip()), "/no/such/home/.local/share/gst-spidar/novint-falcon.bin");
 }
 
 }  // namespace

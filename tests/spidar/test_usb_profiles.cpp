@@ -4,31 +4,14 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::usb_profiles_test {
 namespace {
 
-class UsbProfiles : public testing::Test {
- protected:
-  UsbProfiles() { clear_bus(); }
-  ~UsbProfiles() override { clear_bus(); }
-};
-
-std::string refusal_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
-}
+class UsbProfiles : public BusTest {};
 
 /// A wrong profile pulls with other forces than wanted, and where it should let go.
 TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
@@ -41,12 +24,9 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
   }
   // Which board it is, and whether there is one, comes before its profile.
   for (const char* const device : {"usb", "usb:1-9", "uart:/dev/null,/dev/no-such-line"}) {
-    try {
-      profile_for(device, "");
-      ADD_FAILURE() << device;
-    } catch (const DeviceError& error) {
-      EXPECT_EQ(std::string(error.what()).find("profile"), std::string::npos) << error.what();
-    }
+    const std::string text = message_of<DeviceError>([&] { profile_for(device, ""); });
+    EXPECT_FALSE(text.empty()) << device;
+    EXPECT_EQ(text.find("profile"), std::string::npos) << text;
   }
   // The pages list these for the SH4 and the Simple board.
   const std::string of_sh4 = without_profile(board_info("usb:1-1"));
@@ -68,7 +48,7 @@ TEST_F(UsbProfiles, AreNoneThatNobodyHasNamed) {
 TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   plug(0, "simple").inputs = 0x70;
   for (const std::string name : {"spidar-g6x3-v2-r", "spidar-gcc", "spidar-g6x5-l"}) {
-    const std::string text = refusal_of([&] { profile_for("usb:1-1", name); });
+    const std::string text = message_of<std::exception>([&] { profile_for("usb:1-1", name); });
     expect_contains(text, "profile \"" + name + "\" is for boards of the kind ");
     expect_contains(text, ", and this is usb-simple. Profiles that fit it: ");
     expect_contains(text, " spidar-g6c, ");
@@ -77,14 +57,12 @@ TEST_F(UsbProfiles, OfOtherBoardsAreRefused) {
   // The switch is read, and so the kind known, when it is opened.
   plug(1, "sh4").inputs = 0x30;
   const Profile of_sh4 = profile_for("usb:7", "spidar-g6x3-v2-r");
-  expect_contains(refusal_of([&] { make_device("usb:7", of_sh4)->open(); }),
+  expect_contains(message_of<std::exception>([&] { make_device("usb:7", of_sh4)->open(); }),
                   "the board at 1-1 is a CyVerse USB 2.0 Simple, and profile \"spidar-g6x3-v2-r\" "
                   "is for boards of the kind usb-sh4");
-  boards::Settings unguarded;
-  unguarded.guardian = false;
-  EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded)->open());
+  EXPECT_NO_THROW(make_device("usb:3", of_sh4, unguarded())->open());
   // A name that is no device's says how it would be named.
-  expect_contains(refusal_of([] { profile_for("uart", ""); }), "write uart:PATH");
+  expect_contains(message_of<std::exception>([] { profile_for("uart", ""); }), "write uart:PATH");
   DeviceInfo nothing;
   nothing.device = "uart";
   expect_contains(without_profile(nothing), " No profile that is known here fits it. ");
@@ -108,7 +86,7 @@ TEST_F(UsbProfiles, AreKeptForTheSerialNumberForWhichTheyWereConfirmed) {
   // What cannot be read is not overwritten.
   for (const char* text : {"A1 =", "\"0cec:0205 A1\" = 5"}) {
     std::ofstream(remembered_profiles_file()) << text;
-    expect_contains(refusal_of([] { profile_for("usb:1-1", ""); }),
+    expect_contains(message_of<std::exception>([] { profile_for("usb:1-1", ""); }),
                     remembered_profiles_file().string());
     expect_contains(board_info("usb:1-1").note, remembered_profiles_file().string());
   }

@@ -4,7 +4,7 @@
 #include "spidar/devices/force_feedback/evdev_list.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/test.h"
 
@@ -15,11 +15,7 @@ constexpr const char* kOneAxis =
     " at 20 % of its strength, force feedback on one axis: forces up and down are not felt";
 constexpr const char* kTwoAxes = " at 20 % of its strength, force feedback on two axes";
 
-class Wheels : public testing::Test {
- protected:
-  Wheels() { clear_bus(); }
-  ~Wheels() override { clear_bus(); }
-};
+class Wheels : public BusTest {};
 
 EvdevTraits traits(const std::string& name, std::initializer_list<unsigned> axes,
                    std::initializer_list<unsigned> keys = {}) {
@@ -62,20 +58,22 @@ TEST(IsWheel, JoysticksAreNone) {
   EXPECT_FALSE(is_wheel(traits("FFB Joystick", {ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ})));
 }
 
-TEST_F(Wheels, GetTheSidewaysForce) {
-  plug_evdev(0, EvdevKind::kWheel).axis[1] = 1000;  // a pedal
-  const FeltPlayer player;
-  EXPECT_EQ(player.session->grip().description(),
-            "Emulated Racing Wheel at 20 % of its strength, force feedback on one axis: forces up "
-            "and down are not felt");
-  player.push(-1, 1);
-  wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
-  EXPECT_EQ(evdev_levels(0).up, 0);
-  EXPECT_TRUE(player.session->grip().abilities().force[0]);
-  EXPECT_FALSE(player.session->grip().abilities().force[1]);
-  EXPECT_TRUE(player.session->grip().abilities().direction);
-  EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
-  EXPECT_FALSE(bus().evdev[0].effect[1].used);
+/// By what they report, their USB ID or their pedals. A second effect would turn them: a force
+/// upwards to the left.
+TEST_F(Wheels, GetTheSidewaysForceOnly) {
+  for (const EvdevKind kind : {EvdevKind::kWheel, EvdevKind::kWheelBase, EvdevKind::kPedalBase}) {
+    EvdevPort& port = plug_evdev(0, kind);
+    port.axis[1] = 1000;  // a pedal
+    const FeltPlayer player;
+    player.push(-1, 1);
+    wait_for([] { return is_level(evdev_levels(0).right, -1, 1); });
+    EXPECT_EQ(evdev_levels(0).up, 0);
+    const GripAbilities can = player.session->grip().abilities();
+    EXPECT_TRUE(can.force[0] && can.direction);
+    EXPECT_FALSE(can.force[1]);
+    EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
+    EXPECT_FALSE(port.effect[1].used);
+  }
 }
 
 /// hid-pidff plays every effect of such a wheel to the left if its level is positive.
@@ -85,19 +83,6 @@ TEST_F(Wheels, RightIsRightOnWheelsThatIgnoreTheDirection) {
   for (const double x_N : {1.5, -0.7}) {
     player.push(x_N, 0);
     wait_for([x = x_N] { return is_level(evdev_levels(0).right, x, std::abs(x)); });
-  }
-}
-
-/// The second effect would turn them: a force upwards to the left.
-TEST_F(Wheels, AreKnownByTheirIdOrTheirPedals) {
-  for (const EvdevKind kind : {EvdevKind::kWheelBase, EvdevKind::kPedalBase}) {
-    EvdevPort& port = plug_evdev(0, kind);
-    port.axis[1] = 1000;  // a pedal
-    const FeltPlayer player;
-    player.push(1, 1);
-    wait_for([] { return is_level(evdev_levels(0).right, 1, 1); });
-    EXPECT_FALSE(port.effect[1].used);
-    EXPECT_EQ(player.now().last.pose.position_m.y(), 0);
   }
 }
 
@@ -134,13 +119,8 @@ TEST_F(Wheels, TheNumberOfAxesCanBeNamed) {
 }
 
 TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
-  const auto says = [](const std::string& device) -> std::string {
-    try {
-      const FeltPlayer player(device);
-    } catch (const DeviceError& error) {
-      return error.what();
-    }
-    return "nothing";
+  const auto says = [](const std::string& device) {
+    return message_of<DeviceError>([&] { const FeltPlayer player(device); });
   };
   for (const char* bad : {"axes=3", "axes=0", "axes=", "axes", "wheel", "", "gain=0", "gain=101",
                           "gain=1e1", "gain=", "flip=", "flip=z"})
@@ -152,9 +132,8 @@ TEST_F(Wheels, BadNumbersOfAxesAreRefused) {
                   "50 % of the device's strength (1 to 100), or ff:/dev/input/event0,flip=x if it "
                   "pushes to "
                   "the wrong side");
-  EXPECT_NE(says("ff:/dev/input/event0,axes=1,axes=1")
-                .find("\"axes=1\" is unknown, out of range or given twice"),
-            std::string::npos);
+  expect_contains(says("ff:/dev/input/event0,axes=1,axes=1"),
+                  "\"axes=1\" is unknown, out of range or given twice");
   EXPECT_EQ(says("ff:,axes=1"), "ff:,axes=1: the path is empty; write ff:/dev/input/eventN,axes=1");
   plug_evdev(0, EvdevKind::kOneAxis);
   EXPECT_EQ(says("ff:/dev/input/event0,axes=2"),
