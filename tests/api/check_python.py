@@ -54,7 +54,7 @@ class Devices(unittest.TestCase):
             self.assertTrue(device.wait_until_running(60))
             self.assertEqual(device.state(), State.RUNNING)
             x, y, z = device.pose().position_m
-            self.assertLess(math.hypot(x, y, z), 0.005)  # as in test_api.cpp
+            self.assertLess(math.hypot(x, y, z), 0.005)  # the simulated hand is soft
             self.assertAlmostEqual(device.pose().orientation.w, 1, delta=0.01)
             self.assertLess(abs(device.velocity().x), 0.5)
             self.assertTrue(device.held())
@@ -241,7 +241,7 @@ class Pictures(unittest.TestCase):
             turned = b"".join(row[-4 * i :] + row[: -4 * i] if i else row for row in rows)
             found = motion.analyze(turned if i % 2 else array.array("B", turned), 240, 240, 0.04 * i)
         self.assertTrue(found.has_picture_before)
-        # As in test_motion.cpp; what enters on the left is another part of the texture.
+        # As in test_c_api.c; what enters on the left is another part of the texture.
         self.assertAlmostEqual(found.velocity_x_px_s, 100, delta=0.03 / 0.04)
         self.assertAlmostEqual(found.wrench.force_N.x, 3 / math.pi * math.atan(0.0025 * 200), delta=0.015)
         motion.reset()

@@ -62,26 +62,6 @@ std::string message_of(const std::function<void()>& what) {
   return {};
 }
 
-TEST(Device, APushIsFeltUntilRest) {
-  for (const char* name : {"sim", "sim:sh4"}) {
-    SCOPED_TRACE(name);
-    Device device(name);
-    EXPECT_EQ(device.name(), name);
-    // The strings can give a force of this size at the centre, except for what the solver
-    // sacrifices for even tensions: less than a hundredth. The simulated hand yields by 1 N / 300
-    // N/m, and the strings at rest, 0.3 N each and at least 0.1 m long, pull the grip back from
-    // there.
-    constexpr double kBack_N = 8 * 0.3 / 0.1 * (1.0 / 300);
-    EXPECT_TRUE(comes_true([&] {
-      EXPECT_TRUE(device.push(to_the_right(1)));
-      return std::abs(device.felt().force_N.x - 1) < 0.01 + kBack_N;
-    }));
-    EXPECT_TRUE(comes_true([&] { return device.state() == DeviceState::kRunning; }));
-    device.rest();
-    EXPECT_TRUE(comes_true([&] { return std::abs(device.felt().force_N.x) < 0.01; }));
-  }
-}
-
 TEST(Device, WhatIsFeltIsKnownWhileTheTensionsRampUp) {
   // Opening takes a few tenths of a second. A busy machine may sleep through it, so open again
   // then.
@@ -95,27 +75,6 @@ TEST(Device, WhatIsFeltIsKnownWhileTheTensionsRampUp) {
     }
     return false;
   }));
-}
-
-TEST(Device, NothingIsFeltThatADeviceCannotExert) {
-  Wrench wrench;
-  wrench.force_N = {0.5, 0.5, 1};
-  wrench.torque_Nm = {0.01, 0.01, 0.01};
-  for (const char* name : {"sim:ff", "sim:mouse", "sim"}) {
-    SCOPED_TRACE(name);
-    const bool whole = std::string(name) == "sim";
-    Device device(name);
-    Wrench felt;
-    EXPECT_TRUE(comes_true([&] {
-      device.push(wrench);
-      felt = device.felt();
-      return felt.force_N.x > 0.4 && felt.force_N.y > 0.4;
-    }));
-    EXPECT_EQ(felt.force_N.z != 0, whole);
-    EXPECT_EQ(felt.torque_Nm.x != 0, whole);
-    EXPECT_EQ(felt.torque_Nm.y != 0, whole);
-    EXPECT_EQ(felt.torque_Nm.z != 0, whole);
-  }
 }
 
 TEST(Device, AWrenchThatIsNotRenewedRunsOut) {
@@ -139,21 +98,6 @@ TEST(Device, LimitsHold) {
     std::this_thread::sleep_for(1ms);
     EXPECT_LT(device.felt().force_N.x, 0.51);
   }
-}
-
-TEST(Device, TheGripOfTheSimulatedOneIsAtTheCentre) {
-  const Device device("sim", "spidar-g");
-  ASSERT_TRUE(comes_true([&] { return device.pose().has_value(); }));
-  const Pose pose = *device.pose();
-  ASSERT_TRUE(device.velocity().has_value());
-  EXPECT_LT(std::abs(device.velocity()->x), 0.5);  // a hand holds the simulated grip
-  EXPECT_TRUE(device.held());
-  EXPECT_EQ(device.vibration_fraction(), 1);
-  EXPECT_EQ(device.warning(), "");
-  // An encoder step of this profile is less than a tenth of a millimetre; the simulated hand is
-  // soft.
-  EXPECT_LT(std::hypot(pose.position_m.x, pose.position_m.y, pose.position_m.z), 0.005);
-  EXPECT_NEAR(pose.orientation.w, 1, 0.01);
 }
 
 TEST(Device, ACallbackIsFelt) {

@@ -76,7 +76,9 @@ static void a_push_is_felt(GstSpidarDevice* device) {
   const GstSpidarWrench wanted = {{0.5, 0.25, -0.125}, {0, 0, 0.01}};
   GstSpidarWrench felt = {{0, 0, 0}, {0, 0, 0}};
   GstSpidarError error = {GST_SPIDAR_ERROR_FAILED, "old"};
-  /* As in test_api.cpp: less than a hundredth, and the strings at rest pull 0.08 N back for 1 N. */
+  /* The strings can give a force of this size at the centre, except for what the solver sacrifices
+   * for even tensions: less than a hundredth. The simulated hand yields by 1 N / 300 N/m, and the
+   * strings at rest, 0.3 N each and at least 0.1 m long, pull the grip back from there by 0.08 N. */
   const double close_N = 0.01 + 0.08;
   COMES_TRUE((REQUIRE(gst_spidar_device_push(device, &wanted, &error)),
               gst_spidar_device_felt(device, &felt),
@@ -95,7 +97,7 @@ static void a_device_tells_what_it_does(const GstSpidarDevice* device) {
   REQUIRE(strcmp(gst_spidar_device_name(device), "sim") == 0);
   REQUIRE(gst_spidar_device_state(device) == GST_SPIDAR_RUNNING);
   REQUIRE(gst_spidar_device_pose(device, &pose));
-  /* The simulated hand is soft; see TheGripOfTheSimulatedOneIsAtTheCentre in test_api.cpp. */
+  /* A hand holds the simulated grip, and is soft. */
   REQUIRE(fabs(pose.position_m.x) < 0.01 && fabs(pose.position_m.z) < 0.01);
   REQUIRE(fabs(pose.orientation.w - 1) < 0.01);
   REQUIRE(gst_spidar_device_velocity(device, &velocity_m_s) && fabs(velocity_m_s.z) < 0.5);
@@ -210,7 +212,8 @@ static void pictures_become_a_wrench(void) {
     REQUIRE(gst_spidar_motion_analyze(motion, &picture, 40000000 * (int64_t)i, &found, &error));
     REQUIRE(found.has_picture_before == (i > 0));
   }
-  /* As in test_motion.cpp: 4 px in 40 ms, right to 0.03 px, in a picture of half of 480 lines. */
+  /* 4 px in 40 ms; a mean displacement is right to 0.03 px. Equation 15 of the paper is for a picture
+   * of 480 lines, which has twice as many. */
   REQUIRE(fabs(found.velocity_x_px_s - 100) < 0.03 / 0.04);
   REQUIRE(fabs(found.velocity_y_px_s) < 0.03 / 0.04);
   REQUIRE(fabs(found.growth_1_s) < 0.1 && fabs(found.roll_rad_s) < 0.1);
