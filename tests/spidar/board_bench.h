@@ -57,13 +57,4 @@ inline MotorVolts all_volts(double volt) {
   return volts;
 }
 
-/// Runs a session without a thread until the strings are energised.
-inline void tick_until_running(HapticSession& session) {
-  int64_t now_ns = 0;
-  while (session.loop().snapshot().last.device != DeviceState::kRunning) {
-    now_ns += kTick_ns;
-    session.loop().tick(now_ns, now_ns);
-  }
-}
-
 }  // namespace spidar::test

@@ -5,6 +5,7 @@
 
 #include <unistd.h>
 
+#include "tests/support/messages.h"
 #include "tests/support/shell.h"
 #include "tests/support/test.h"
 
@@ -12,10 +13,6 @@ namespace spidar::test {
 
 inline CommandResult run_spidarctl(const std::string& arguments) {
   return run_shell(std::string(SPIDARCTL) + " " + arguments + " 2>&1");
-}
-
-inline void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
 }
 
 /// Removed at the end.

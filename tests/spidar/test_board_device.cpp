@@ -9,6 +9,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/spidar/device_test.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::board_device_test {
@@ -20,32 +21,8 @@ TEST(Uart, ReportsTooFewMotors) {
   lines.push_back(bench.transport_to(std::make_unique<emulated::Uart>(
       bench.recorded, std::vector<emulated::Uart::Station>{{2, {5, 1, 4, 4, 0, 0}}})));
   boards::Uart board("uart:/dev/x", bench.profile, std::move(lines));
-  try {
-    board.open();
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("1 motor boards answer, with 4 motors; the profile has "
-                        "8 strings"),
-              std::string::npos)
-        << error.what();
-  }
-}
-
-TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
-  constexpr int64_t kMs = 1'000'000;
-  int64_t now_ns = 5 * kMs;
-  boards::EncoderCounts counts(16);
-  counts.open({5000}, 1);
-  EXPECT_TRUE(counts.update({5000}, now_ns));
-  EXPECT_TRUE(counts.update({5000 + 4096}, now_ns += kMs));
-  EXPECT_FALSE(counts.update({9096 + 4096}, now_ns += kMs - 1));  // 2048 within a millisecond
-  // The counters began anew: that does not pass by waiting for it.
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.update({0}, now_ns += kMs));
-  EXPECT_EQ(counts.counts()[0], 9096);
-  // After a break of many milliseconds a quarter of the range, after a longer one no more.
-  EXPECT_FALSE(counts.update({9096 + 16385}, now_ns += 100 * kMs));
-  EXPECT_TRUE(counts.update({9096 + 16384}, now_ns += 7 * kMs));
+  expect_contains(opening(board),
+                  "1 motor boards answer, with 4 motors; the profile has 8 strings");
 }
 
 /// Bit 11 is 2048 counts, as far as a hand gets in a millisecond.
@@ -157,13 +134,8 @@ std::vector<std::pair<std::string, const DeviceKind*>> names_with_strings() {
 }
 
 /// The message of make_device(); empty on success.
-std::string error_of(const std::string& spec, const Profile& profile) {
-  try {
-    make_device(spec, profile);
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
-  return "";
+std::string refusal_of(const std::string& spec, const Profile& profile) {
+  return message_of<DeviceError>([&] { make_device(spec, profile); });
 }
 
 TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
@@ -172,18 +144,12 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
   for (const DeviceKind& kind : devices())
     if (!kind.needs_rest()) unknown.push_back(std::string(kind.device) + ":");
   for (const std::string& spec : unknown) {
-    try {
-      make_grip(spec, profile);
-      FAIL() << spec;
-    } catch (const DeviceError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.find("unknown device \"" + spec +
-                          "\"; known are: sim, sim:BOARD, none, auto, " + devices()[0].names),
-                0u)
-          << what;
-      for (const DeviceKind& kind : devices())
-        EXPECT_NE(what.find(std::string(", ") + kind.names), std::string::npos) << what;
-    }
+    const std::string what = message_of<DeviceError>([&] { make_grip(spec, profile); });
+    EXPECT_EQ(what.find("unknown device \"" + spec + "\"; known are: sim, sim:BOARD, none, auto, " +
+                        devices()[0].names),
+              0u)
+        << what;
+    for (const DeviceKind& kind : devices()) expect_contains(what, std::string(", ") + kind.names);
   }
   for (const DeviceKind& kind : devices()) {
     const std::string spec = std::string("sim:") + kind.board;
@@ -214,7 +180,7 @@ TEST(DeviceFactory, ListsKnownDevicesForUnknownNames) {
 TEST(DeviceFactory, RefusesNegativeVoltsForBoardsWithoutThem) {
   const Profile profile = load_profile("spidar-g6x4");
   for (const auto& [spec, kind] : names_with_strings()) {
-    const std::string error = error_of(spec, profile);
+    const std::string error = refusal_of(spec, profile);
     EXPECT_EQ(error.find("negative volts for string 2") == std::string::npos, kind->traits.negative)
         << spec << ": " << error;
   }
@@ -227,44 +193,25 @@ TEST(DeviceFactory, RefusesProfilesOfBoardsThatThereAreNot) {
     Profile weak = fits;
     weak.dac_bits = kind->traits.dac_bits;
     for (StringDrive& drive : weak.drives) drive.max_tension_N = 3.3 * drive.newtons_per_volt;
-    EXPECT_EQ(error_of(spec, weak), "");
+    EXPECT_EQ(refusal_of(spec, weak), "");
     for (const int bits : {8, 11, 13, 16, 24}) {
       Profile other = weak;
       other.dac_bits = bits;
-      EXPECT_NE(error_of(spec, other).find("has dac_bits = " + std::to_string(bits)),
+      EXPECT_NE(refusal_of(spec, other).find("has dac_bits = " + std::to_string(bits)),
                 std::string::npos)
-          << spec << ": " << error_of(spec, other);
+          << spec << ": " << refusal_of(spec, other);
     }
     Profile fine = weak;
     fine.drives[5].metres_per_count = 4.8e-6;
-    EXPECT_NE(error_of(spec, fine).find("metres_per_count = 4.8e-06 for string 5"),
+    EXPECT_NE(refusal_of(spec, fine).find("metres_per_count = 4.8e-06 for string 5"),
               std::string::npos)
-        << spec << ": " << error_of(spec, fine);
+        << spec << ": " << refusal_of(spec, fine);
     Profile strong = weak;
     strong.drives[4].max_tension_N = 3.4 * strong.drives[4].newtons_per_volt;
-    EXPECT_EQ(error_of(spec, strong).find("wants 3.4 V for string 4 (max_tension_N)") !=
+    EXPECT_EQ(refusal_of(spec, strong).find("wants 3.4 V for string 4 (max_tension_N)") !=
                   std::string::npos,
               kind->traits.max_V > 0 && kind->traits.max_V < 3.4)
-        << spec << ": " << error_of(spec, strong);
-  }
-}
-
-/// The simulated grip moves equally whether volts are passed directly or through packets.
-TEST(WireSimulation, HoldsTheGripWhereTheSimulationDoes) {
-  std::vector<std::string> specs{"sim"};
-  for (const std::string& board : boards_that_there_are(true)) specs.push_back("sim:" + board);
-  for (const std::string& spec : specs) {
-    const Profile profile = load_profile("spidar-g6x");
-    SessionSettings by_hand;
-    by_hand.threaded = false;
-    HapticSession session(profile, make_device(spec, profile), by_hand);
-    tick_until_running(session);
-    const LoopSnapshot snapshot = session.loop().snapshot();
-    EXPECT_EQ(snapshot.counters.exchange_errors, 0u) << spec;
-    EXPECT_EQ(snapshot.counters.pose_errors, 0u) << spec;
-    // All strings at rest pull alike, and the hand's spring of 300 N/m holds: within a newton's
-    // way.
-    EXPECT_LT(snapshot.last.pose.position_m.norm(), 1.0 / 300) << spec;
+        << spec << ": " << refusal_of(spec, strong);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/spidar/device_test.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::boards_test {
@@ -85,16 +86,6 @@ TEST_P(Boards, CloseRampsToZero) {
   device->close();
   EXPECT_EQ(motors.updates, updates);
   EXPECT_EQ(device->exchange(all_volts(1), reading), LinkFault::kGone);
-}
-
-TEST_P(Boards, DestructionRampsToZeroToo) {
-  {
-    const auto device = this->device(true);
-    device->open();
-    DeviceReading reading;
-    for (int i = 0; i < 8; ++i) device->exchange(all_volts(2), reading);
-  }
-  EXPECT_TRUE(motors.all_zero());
 }
 
 TEST_P(Boards, GarbageIsNotTakenForCounts) {
@@ -176,12 +167,7 @@ TEST_P(Boards, ABoardThatWasWithoutPowerIsNotTakenBack) {
     // It began anew, and a hand moves the grip from there: also when the counters look right again.
     for (const int32_t count : {3, 1500, 5100}) {
       motors.count[3] = count;
-      try {
-        device->open();
-        FAIL() << count;
-      } catch (const DeviceError& error) {
-        EXPECT_NE(std::string(error.what()).find("was without power"), std::string::npos);
-      }
+      expect_contains(opening(*device), "was without power");
     }
     EXPECT_EQ(device->health().last_fault, LinkFault::kCounterJump);
     const auto anew = this->device(false, policy);
@@ -206,25 +192,6 @@ TEST_P(Boards, ABoardThatHadItsPowerIsTakenBack) {
     ASSERT_EQ(device->exchange({}, reading), LinkFault::kNone);
     EXPECT_EQ(reading.count[3], count - 5000);
   }
-}
-
-TEST_P(Boards, OpenSaysWhatIsWrong) {
-  const auto device = this->device();
-  for (const LinkFault fault : {LinkFault::kTimeout, LinkFault::kStall, LinkFault::kBabble}) {
-    *wire = fault;
-    try {
-      device->open();
-      FAIL() << to_string(fault);
-    } catch (const DeviceError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.find(kind.board), 0u) << what;
-      // UART boards that do not answer are no boards.
-      const std::string expected = is_uart ? "0 motor boards" : to_string(fault);
-      EXPECT_NE(what.find(expected), std::string::npos) << what;
-    }
-  }
-  *wire = LinkFault::kNone;
-  device->open();
 }
 
 }  // namespace

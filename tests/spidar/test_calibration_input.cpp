@@ -3,6 +3,7 @@
 // Messages of the calibration for unusable input.
 
 #include "tests/spidar/calibration_samples.h"
+#include "tests/support/messages.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::calibration_input_test {
@@ -10,16 +11,7 @@ namespace spidar::test::calibration_input_test {
 namespace {
 
 std::string error_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+  return message_of<std::invalid_argument>(call);
 }
 
 calibration::CountSamples good_counts(const Profile& profile) {

@@ -8,6 +8,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "tests/spidar/kinds.h"
+#include "tests/support/messages.h"
 #include "tests/support/tampered_device.h"
 #include "tests/support/test.h"
 
@@ -152,8 +153,7 @@ TEST(Delay, GivesNoNumberWhenTheGripCannotMove) {
     EXPECT_FALSE(test.measured());
     EXPECT_TRUE(test.complete);
     EXPECT_FALSE(test.is_of_device);
-    EXPECT_NE(test.error.find("hold it loosely, so that it can move"), std::string::npos)
-        << test.error;
+    expect_contains(test.error, "hold it loosely, so that it can move");
   }
 }
 
@@ -219,7 +219,7 @@ TEST(Delay, StopsAtAnyFault) {
     Watched watched;
     const selftest::DelayTest test = watched.measure(3, [&] { fault.happen(watched); });
     EXPECT_FALSE(test.measured());
-    EXPECT_NE(test.error.find(fault.says), std::string::npos) << test.error;
+    expect_contains(test.error, fault.says);
     EXPECT_LT(watched.time.now_ns, 4000 * kTick_ns);
     EXPECT_EQ(watched.sim.felt().tension_N.norm(), 0);
     EXPECT_EQ(test.is_of_device,
@@ -263,7 +263,7 @@ TEST(Delay, TooFewSecondsGiveNoNumber) {
   const selftest::DelayTest test =
       selftest::measure_delay(watched.sim, watched.profile, pace, watched.time.clock());
   EXPECT_FALSE(test.measured());
-  EXPECT_NE(test.error.find("only 0 of 18 seconds"), std::string::npos) << test.error;
+  expect_contains(test.error, "only 0 of 18 seconds");
 }
 
 TEST(LagVerdict, SaysWhetherTheProfileIsRight) {

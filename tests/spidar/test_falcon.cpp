@@ -37,12 +37,6 @@ TEST(NovintFalcon, ACommandIsLettersForNibblesAndFlags) {
   EXPECT_FALSE(read.homing);
 }
 
-TEST(NovintFalcon, RestIsOnePacketWithHoming) {
-  Packet written;
-  falcon::encode_command({}, written);
-  EXPECT_EQ(text(written), "<AAAAAAAAAAAABA>");
-}
-
 TEST(NovintFalcon, MotorsAreShortenedToTwelveBits) {
   Packet written;
   falcon::encode_command({{100'000, -100'000, 4095}}, written);

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 // The grip of a Novint Falcon: its arms, its room, and its zero.
 #include "spidar/session/haptic_session.h"
+#include "tests/spidar/device_test.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/test.h"
@@ -77,9 +78,7 @@ TEST(FalconGrip, ReachesTheWholeRoomThatItStates) {
 /// 2.4 m/s fast.
 TEST(FalconGrip, ReleasedItStaysSlow) {
   ForceBench bench("falcon");
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  HapticSession session(bench.grip(), by_hand);
+  HapticSession session(bench.grip(), by_hand());
   int64_t now_ns = 0;
   session.loop().set_playback_clock({now_ns, 0, 1.0, true});
   double at_m = -0.05, speed_m_s = 0, fastest_m_s = 0;
@@ -105,7 +104,7 @@ TEST(FalconGrip, WithoutItsZeroHasNoPositionAndNoForce) {
   bench.motors.inputs = 0x35;  // two encoders; buttons 1 and 3
   const auto grip = bench.grip();
   grip->open();
-  EXPECT_NE(grip->description().find("push it all the way in"), std::string::npos);
+  expect_contains(grip->description(), "push it all the way in");
   for (int i = 0; i < 2 * PoseTrust::kGoodPoses; ++i)
     ASSERT_EQ(grip->exchange(told(2)), LinkFault::kNone);
   EXPECT_TRUE(bench.motors.all_zero());

@@ -48,19 +48,6 @@ TEST(FalconKinematics, TheRodsHaveTheirLength) {
   }
 }
 
-/// With equal angles the grip is in the middle, and only the lean of the rods needs a square root.
-TEST(FalconKinematics, EqualAnglesAreAPlaceOnTheAxis) {
-  for (const double degrees : {-10.0, 10.0, 35.0, 60.0}) {
-    const double angle = degrees * kDegree_rad;
-    const double across = 0.040 + 0.060 * std::cos(angle) - 0.01443;
-    const double span = 0.0225 + std::sqrt(0.1025 * 0.1025 - 0.00191 * 0.00191);
-    const double out = 0.060 * std::sin(angle) + std::sqrt(span * span - across * across);
-    const auto at = falcon::grip_position(Vector3d::Constant(angle));
-    ASSERT_TRUE(at) << degrees;
-    EXPECT_TRUE(at->isApprox(Vector3d(0, 0, out - 0.125), 1e-9)) << at->transpose();
-  }
-}
-
 TEST(FalconKinematics, AnglesAndPlacesBelongTogether) {
   double worst_m = 0;
   for (const Vector3d& at : workspace()) {

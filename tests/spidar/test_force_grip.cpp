@@ -4,6 +4,7 @@
 #include "core/grip/string_geometry.h"
 #include "spidar/loop/brake_table.h"
 #include "spidar/session/haptic_session.h"
+#include "tests/spidar/device_test.h"
 #include "tests/spidar/force_bench.h"
 #include "tests/support/felt_player.h"
 #include "tests/support/test.h"
@@ -69,21 +70,10 @@ TEST_P(ForceBoards, CloseEndsAtRest) {
   }
 }
 
-TEST_P(ForceBoards, DestructionEndsAtRestToo) {
-  {
-    const auto device = linked(true);
-    device->open();
-    exchange(*device, pushing(1));
-  }
-  EXPECT_TRUE(motors.all_zero());
-}
-
 /// A force that lasts is no sign of a dead sensor: a stick may be held still, and the mouse has no
 /// sensor.
 TEST_P(ForceBoards, TheHapticLoopDrivesThemAndTheForceLasts) {
-  SessionSettings by_hand;
-  by_hand.threaded = false;
-  HapticSession session(grip(), by_hand);
+  HapticSession session(grip(), by_hand());
   int64_t now_ns = 0;
   session.loop().set_playback_clock({now_ns, 0, 1.0, true});
   ASSERT_TRUE(session.loop().schedule(lasting({1, 0.5, 0})));
@@ -225,50 +215,6 @@ TEST(ForceGrip, AStickThatSwingsKeepsItsForce) {
     ASSERT_EQ(now.commanded.force_N, Eigen::Vector3d(1, 0.5, 0)) << ms;
   }
   EXPECT_GT(fastest_m_s, brake::kFastest_m_s);
-}
-
-TEST(ForceGrip, AnInverse3TakesForcesAndGivesPositionsInAllAxes) {
-  ForceBench bench("inverse3");
-  bench.motors.count[0] = 10'000;
-  bench.motors.count[1] = -20'000;
-  bench.motors.count[2] = 30'000;
-  bench.motors.inputs = 5;
-  const auto grip = bench.grip();
-  grip->open();
-  EXPECT_EQ(grip->description(), "Haply Inverse3 049D, service 3.5");
-  GripCommand command = told(0.1, 0.2);
-  command.wrench.force_N.z() = -0.3;
-  ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
-  const StringGeometry room =
-      with_workspace(bench.profile.geometry, grip->abilities().half_workspace_m);
-  EXPECT_TRUE(half_workspace_m(room).isApproxToConstant(0.07, 1e-12));
-  EXPECT_EQ(half_workspace_m(with_workspace(bench.profile.geometry, {})),
-            half_workspace_m(bench.profile.geometry));
-  EXPECT_EQ(bench.motors.digit[0], 100);
-  EXPECT_EQ(bench.motors.digit[1], 200);
-  EXPECT_EQ(bench.motors.digit[2], -300);
-  EXPECT_TRUE(grip->reading().pose.position_m.isApprox(Eigen::Vector3d(0.01, -0.02, 0.03), 1e-9));
-  EXPECT_EQ(grip->reading().buttons, 5u);
-}
-
-TEST(ForceGrip, TheStickHasAVelocity) {
-  ForceBench bench("ff");
-  const auto grip = bench.grip();
-  grip->open();
-  GripCommand command;
-  double fastest_m_s = 0;
-  // From the centre to the right stop, over 200 ms.
-  for (int ms = 0; ms < 400; ++ms) {
-    bench.motors.count[0] = std::min(std::max(0, 50 * (ms - 100)), ff::Position::kFull);
-    command.now_ns += kTick_ns;
-    ASSERT_EQ(grip->exchange(command), LinkFault::kNone);
-    fastest_m_s = std::max(fastest_m_s, grip->reading().motion.velocity().linear_m_s.x());
-  }
-  const double reach_m = grip->reading().pose.position_m.x();
-  EXPECT_GT(reach_m, 0.01);
-  // The low-pass reaches 1 - exp(-200 / 2.7) of it, and a reading is interpolated at its speed.
-  EXPECT_NEAR(fastest_m_s, reach_m / 0.2, 1e-3 * reach_m / 0.2);
-  EXPECT_NEAR(grip->reading().motion.velocity().linear_m_s.x(), 0, 1e-9);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "spidar/devices/sim/grip_model.h"
 #include "spidar/profiles/profile.h"
+#include "tests/support/messages.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::grip_model_test {
@@ -35,33 +36,6 @@ double energy_J(const StringGeometry& geometry, const GripModel& model,
 class EveryProfile : public testing::TestWithParam<std::string> {};
 
 }  // namespace
-
-TEST(RotationVector, IsTheShorterWayRound) {
-  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -3).normalized();
-  for (const double angle : {0.0, 1e-12, 1e-5, 0.5, 3.0}) {
-    const Eigen::Quaterniond q = turned(angle, axis);
-    // cos and sin of half the angle are rounded to 1e-16: the angle to a few of that.
-    EXPECT_LT((rotation_vector(q) - angle * axis).norm(), 1e-15) << angle;
-    const Eigen::Quaterniond same(-q.w(), -q.x(), -q.y(), -q.z());
-    EXPECT_LT((rotation_vector(same) - angle * axis).norm(), 1e-15) << angle;
-  }
-}
-
-TEST(GripModel, TensionsFollowWithTheTimeConstant) {
-  const Profile profile = load_profile(kDefaultProfile);
-  GripModel model;
-  model.motor_time_constant_s = 0.004;
-  const GripDynamics dynamics(profile.geometry, profile.max_tension_N(), model);
-  GripDynamics::State state;
-  StringVector target_N = StringVector::Zero();
-  target_N[3] = 2.0;
-  for (int tick = 1; tick <= 20; ++tick) {
-    dynamics.advance(target_N, {}, kTick_s, state);
-    // The lag is solved exactly: only rounding, a few 1e-16 a substep.
-    EXPECT_NEAR(state.tension_N[3], 2.0 * (1 - std::exp(-tick * kTick_s / 0.004)), 1e-13) << tick;
-    EXPECT_EQ(state.tension_N[2], 0) << tick;
-  }
-}
 
 // Slack strings leave a damped oscillator, ẍ + 2δẋ + ω²x = 0, swinging in translation and creeping
 // in rotation: x(t) = x0 e^(−δt)(cosh st + δ/s sinh st), s² = δ² − ω². The method is of first
@@ -146,29 +120,25 @@ TEST(GripModel, GripStopsAtTheFrame) {
 
 TEST(GripModel, ModelThatIsNotPhysicalIsRefused) {
   const Profile profile = load_profile(kDefaultProfile);
-  const auto error_of = [&](const GripModel& model) -> std::string {
-    try {
-      GripDynamics(profile.geometry, profile.max_tension_N(), model);
-    } catch (const std::invalid_argument& error) {
-      return error.what();
-    }
-    return "";
+  const auto error_of = [&](const GripModel& model) {
+    return message_of<std::invalid_argument>(
+        [&] { GripDynamics(profile.geometry, profile.max_tension_N(), model); });
   };
   GripModel model;
   model.mass_kg = 0;
-  EXPECT_NE(error_of(model).find("mass_kg"), std::string::npos);
+  expect_contains(error_of(model), "mass_kg");
   model = {};
   model.inertia_kg_m2 = std::nan("");
-  EXPECT_NE(error_of(model).find("inertia_kg_m2"), std::string::npos);
+  expect_contains(error_of(model), "inertia_kg_m2");
   model = {};
   model.hand_damping_N_s_m = -1;
-  EXPECT_NE(error_of(model).find("hand_damping_N_s_m"), std::string::npos);
+  expect_contains(error_of(model), "hand_damping_N_s_m");
   model = {};
   model.motor_delay_s = 0.06;
-  EXPECT_NE(error_of(model).find("motor_delay_s"), std::string::npos);
+  expect_contains(error_of(model), "motor_delay_s");
   model = {};
   model.hand_stiffness_N_m = 1e12;
-  EXPECT_NE(error_of(model).find("too stiff"), std::string::npos);
+  expect_contains(error_of(model), "too stiff");
   EXPECT_EQ(error_of({}), "");
 }
 

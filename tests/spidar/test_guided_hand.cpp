@@ -12,17 +12,6 @@ constexpr double kTick_s = 1e-3;
 /// Sums of hundreds of steps of numbers below 0.1.
 constexpr double kRounding_m = 1e-14;
 
-TEST(GuidedHand, IsWhereItRestsAsLongAsNobodyLeadsIt) {
-  std::mt19937 random(3);
-  GuidedHand hand;
-  for (int tick = 0; tick < 100; ++tick) {
-    const Pose rest = hand_at(random);  // leaps from one to the next
-    const Pose& now = hand.advance(rest, {}, kTick_s);
-    EXPECT_EQ(now.position_m, rest.position_m);
-    EXPECT_EQ(now.orientation.coeffs(), rest.orientation.coeffs());
-  }
-}
-
 TEST(GuidedHand, GoesThereAndBackNoFasterThanAHand) {
   Pose rest;
   rest.position_m = {0, 0, 0.004};

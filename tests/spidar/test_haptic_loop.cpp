@@ -422,16 +422,5 @@ TEST(HapticLoop, StallDoesNotEndInAStep) {
   EXPECT_LE(after_N - before_N, ramp_step * 1.0 + 1e-12);
 }
 
-TEST(HapticLoop, RecordsEveryTick) {
-  Playing driver;
-  const uint64_t ticks = driver.counters().ticks;
-  TickRecord record;
-  for (uint64_t i = 1; i <= ticks; ++i) {
-    ASSERT_TRUE(driver.loop->pop_record(record));
-    ASSERT_EQ(record.tick, i);
-  }
-  EXPECT_FALSE(driver.loop->pop_record(record));
-}
-
 }  // namespace
 }  // namespace spidar::test::haptic_loop_test

@@ -34,22 +34,6 @@ void push(LoopDriver& driver) {
   driver.play(0);
 }
 
-TEST(HapticLoopDevice, NeedsSixStrings) {
-  Profile profile = load_profile(kDefaultProfile);
-  profile.geometry.count = 5;
-  FakeDevice device;
-  EXPECT_THROW(std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device)),
-               std::invalid_argument);
-}
-
-TEST(HapticLoopDevice, OpenFailsWithoutDevice) {
-  LoopDriver driver;
-  driver.log().present = false;
-  EXPECT_THROW(driver.loop->open(), DeviceError);
-  EXPECT_EQ(driver.tick().device, DeviceState::kClosed);
-  EXPECT_TRUE(driver.log().volts.empty());
-}
-
 TEST(HapticLoopDevice, OpeningEnergisesSlowly) {
   LoopDriver driver;
   driver.loop->open();
@@ -96,13 +80,6 @@ TEST(HapticLoopDevice, ClosesAtZeroVoltsWithinATenthOfASecond) {
   EXPECT_EQ(driver.tick().device, DeviceState::kRunning);
 }
 
-TEST(HapticLoopDevice, DestructorClosesDevice) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop.reset();
-  EXPECT_FALSE(driver.log().is_open);
-}
-
 TEST(HapticLoopDevice, LostAndBack) {
   LoopDriver driver;
   driver.open();
@@ -131,16 +108,6 @@ TEST(HapticLoopDevice, LostAndBack) {
   EXPECT_EQ(driver.run(300 * kMs).commanded.force_N.x(), 1);
   EXPECT_EQ(driver.counters().times_lost, 1u);
   EXPECT_EQ(driver.counters().missed_deadlines, 0u);  // the wait does not count
-}
-
-TEST(HapticLoopDevice, NothingToReleaseWhenLost) {
-  LoopDriver driver;
-  driver.open();
-  driver.log().answer = LinkFault::kGone;
-  driver.tick();
-  EXPECT_FALSE(driver.loop->released());
-  driver.loop->begin_close();
-  EXPECT_TRUE(driver.loop->released());
 }
 
 TEST(HapticLoopDevice, ErrorsInARowOrInMostTicksAreALoss) {

@@ -2,6 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// Messages of the Inverse Service, written by hand from the published examples.
 #include "spidar/devices/inverse3/packets.h"
+#include "tests/support/messages.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::inverse3_test {
@@ -126,31 +127,13 @@ TEST(Inverse3, ButtonsOfEitherHandleAndWhatTheDeviceLacks) {
   EXPECT_FALSE(state.calibrated || state.powered);
 }
 
-/// The emulation's messages are those that the driver reads.
-TEST(Inverse3, AStateIsTheSameAfterItIsWrittenAndRead) {
-  for (const Version version : {Version::k31, Version::k35}) {
-    const State told{"04-B_a.1", version, {0.01, -0.02, 0.05}, 6, false, true};
-    State state;
-    ASSERT_EQ(read(written([&](MutableBytes bytes) { return inverse3::encode_state(told, bytes); }),
-                   state),
-              Answer::kState);
-    EXPECT_EQ(state.id, told.id);
-    EXPECT_EQ(state.version, told.version);
-    EXPECT_TRUE(state.position_m.isApprox(told.position_m, 1e-9));
-    EXPECT_EQ(state.buttons, 6u);
-    EXPECT_FALSE(state.calibrated);
-    EXPECT_TRUE(state.powered);
-  }
-}
-
 TEST(Inverse3, OnlyTheLaterVersionIsToldWhereTheOriginIs) {
   State device;
   device.id = "1";
   const auto start = [&](MutableBytes bytes) { return inverse3::encode_start(device, bytes); };
   EXPECT_EQ(written(start).find("preset"), std::string::npos);
   device.version = Version::k35;
-  EXPECT_NE(written(start).find(R"("configure":{"preset":{"preset":"arm_front_centered"})"),
-            std::string::npos);
+  expect_contains(written(start), R"("configure":{"preset":{"preset":"arm_front_centered"})");
   Eigen::Vector3d force_N(1, 1, 1);
   ASSERT_TRUE(inverse3::decode_force(view(written(start)), "1", force_N));
   EXPECT_TRUE(force_N.isZero(0));

@@ -9,6 +9,7 @@
 
 #include "spidar/realtime/line_writer.h"
 #include "spidar/realtime/standard_descriptors.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
@@ -49,7 +50,7 @@ class LineWriterPipe : public testing::Test {
 };
 
 TEST_F(LineWriterPipe, WithoutAReaderIsRefusedAtOnce) {
-  EXPECT_NE(writer.open(path, kLine).find("a pipe that nobody reads"), std::string::npos);
+  expect_contains(writer.open(path, kLine), "a pipe that nobody reads");
   EXPECT_FALSE(writer.is_open());
   EXPECT_EQ(open_output(path.c_str(), 0), -1) << "would wait for ever";
 }

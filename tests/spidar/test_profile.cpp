@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "spidar/profiles/profile.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
@@ -72,16 +73,7 @@ class Environment {
 };
 
 std::string error_of(const std::string& name_or_path) {
-  try {
-    load_profile(name_or_path);
-  } catch (const ProfileError& error) {
-    return error.what();
-  }
-  return "";
-}
-
-void expect_contains(const std::string& text, const std::string& part) {
-  EXPECT_NE(text.find(part), std::string::npos) << "\"" << part << "\" is not in:\n" << text;
+  return message_of<ProfileError>([&] { load_profile(name_or_path); });
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "spidar/profiles/profile_file.h"
 #include "spidar/whole_file.h"
 #include "tests/spidar/calibration_samples.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
@@ -64,12 +65,7 @@ void expect_same(const Profile& a, const Profile& b) {
 
 std::string load_error(const std::string& path, const std::string& text) {
   std::ofstream(path) << text;
-  try {
-    load_profile(path);
-  } catch (const ProfileError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<ProfileError>([&] { load_profile(path); });
 }
 
 }  // namespace
@@ -157,13 +153,8 @@ TEST(ProfileWriter, FailureLeavesNothingBehind) {
   const Folder folder;
   const Profile profile = load_profile("spidar-gcc");
   for (const std::string& path : {folder.file("no/such/folder.toml"), folder.file("")}) {
-    try {
-      save_profile(profile, path);
-      ADD_FAILURE() << "written to " << path;
-    } catch (const std::runtime_error& error) {
-      EXPECT_NE(std::string(error.what()).find(path + ": cannot be written: "), std::string::npos)
-          << error.what();
-    }
+    const auto save = [&] { save_profile(profile, path); };
+    expect_contains(message_of<std::runtime_error>(save), path + ": cannot be written: ");
   }
   EXPECT_TRUE(folder.is_empty());
 }
@@ -237,12 +228,10 @@ TEST(ProfileWriter, BadCalibrationIsRefusedByName) {
   const Folder folder;
   Profile profile = load_profile("spidar-gcc");
   profile.drives[2].home_offset_m = -1.0;
-  EXPECT_NE(load_error(folder.file("a.toml"), profile_text(profile)).find("home_offset_m[2]"),
-            std::string::npos);
+  expect_contains(load_error(folder.file("a.toml"), profile_text(profile)), "home_offset_m[2]");
   profile.drives[2].home_offset_m = 0;
   profile.calibration = CalibrationRecord{10, -1e-6};
-  EXPECT_NE(load_error(folder.file("c.toml"), profile_text(profile)).find("residual_m"),
-            std::string::npos);
+  expect_contains(load_error(folder.file("c.toml"), profile_text(profile)), "residual_m");
 }
 
 }  // namespace spidar::test::profile_writer_test

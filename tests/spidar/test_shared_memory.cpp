@@ -24,16 +24,6 @@ struct Block {
   }
 };
 
-TEST(Seqlock, GivesWhatWasStored) {
-  Seqlock<Block> lock(Block::of(7));
-  EXPECT_EQ(lock.load().words[1023], 7u);
-  lock.store(Block::of(8));
-  EXPECT_EQ(lock.load().words[1023], 8u);
-  Block block;
-  EXPECT_TRUE(lock.try_load(block));
-  EXPECT_EQ(block.words[0], 8u);
-}
-
 TEST(Seqlock, OddSizes) {
   struct Small {
     char text[11] = "0123456789";
@@ -63,24 +53,6 @@ TEST(Seqlock, NeverTornAndNeverBackwards) {
   writer.join();
   EXPECT_TRUE(whole);
   EXPECT_TRUE(rising);
-}
-
-TEST(SpscRing, KeepsOrderAndSize) {
-  SpscRing<int, 4> ring;
-  int value = -1;
-  EXPECT_FALSE(ring.pop(value));
-  EXPECT_EQ(ring.front(), nullptr);
-  for (int round = 0; round < 3; ++round) {
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(ring.push(i));
-    EXPECT_FALSE(ring.push(4));
-    EXPECT_EQ(*ring.front(), 0);
-    ring.drop();
-    for (int i = 1; i < 4; ++i) {
-      EXPECT_TRUE(ring.pop(value));
-      EXPECT_EQ(value, i);
-    }
-    EXPECT_FALSE(ring.pop(value));
-  }
 }
 
 TEST(SpscRing, LosesNothingBetweenThreads) {

@@ -7,25 +7,6 @@
 
 namespace spidar::test::simulated_device_test {
 
-TEST_F(SimulatedDeviceTest, CountsAreZeroAtTheCentreAndSignedAsTheProfileSays) {
-  SimulatedDevice device(profile, kFixedStep);
-  device.open();
-  DeviceReading reading;
-  reading.count.fill(77);
-  ASSERT_EQ(device.exchange({}, reading), LinkFault::kNone);
-  for (const int32_t count : reading.count) EXPECT_EQ(count, 0);
-
-  // To the right: strings of the left side (0, 1, 4, 5) are paid out.
-  Pose hand;
-  hand.position_m.x() = 0.01;
-  device.set_hand(hand);
-  for (int tick = 0; tick < 500; ++tick) device.exchange({}, reading);
-  for (const size_t i : {0u, 1u, 4u, 5u})
-    EXPECT_GT(reading.count[i] * profile.drives[i].encoder_sign, 0) << i;
-  for (const size_t i : {2u, 3u, 6u, 7u})
-    EXPECT_LT(reading.count[i] * profile.drives[i].encoder_sign, 0) << i;
-}
-
 TEST_F(SimulatedDeviceTest, CountsAreWithinHalfACountOfTheLengths) {
   constexpr unsigned kSeed = 1;
   std::mt19937 random(kSeed);
@@ -70,27 +51,6 @@ TEST_F(SimulatedDeviceTest, TensionsHaveTheStepsOfTheDA) {
   }
 }
 
-TEST_F(SimulatedDeviceTest, ADelayHoldsTensionsBack) {
-  GripModel model = without_lag();
-  model.motor_delay_s = 0.005;
-  SimulatedDevice device(profile, kFixedStep, model);
-  device.open();
-  const double step = step_N(profile, 2);
-  DeviceReading reading;
-  for (int tick = 0; tick <= 100; ++tick) {
-    StringVector tension_N = StringVector::Zero();
-    tension_N[2] = tick * step;
-    device.exchange(volts_for(profile, tension_N), reading);
-    // Until this exchange acted what was put out in the one before, or five ticks before that.
-    EXPECT_NEAR(device.felt().tension_N[2], std::max(0, tick - 6) * step, 1e-9) << tick;
-  }
-  device.close();
-  EXPECT_EQ(device.felt().tension_N[2], 0);
-  device.open();
-  for (int tick = 0; tick < 6; ++tick) device.exchange({}, reading);
-  EXPECT_EQ(device.felt().tension_N[2], 0);
-}
-
 TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   SimulatedDevice device(profile, kFixedStep, without_lag());
   device.open();
@@ -111,36 +71,6 @@ TEST_F(SimulatedDeviceTest, MotorsSaturateAndStringsNeverPush) {
   EXPECT_EQ(tension_N[1], max_N[1]);
   for (int i = 2; i <= 5; ++i) EXPECT_EQ(tension_N[i], 0) << i;
   EXPECT_NEAR(tension_N[6], 1.0, step_N(profile, 6) / 2 * (1 + 1e-9));
-}
-
-// Constant volts on some strings: the grip rests where the hand's springs hold the wrench of the
-// tensions that were asked for. The D/A is off by up to half a step a string, each of which moves
-// the grip by at most step/2 over the stiffness, and turns it by at most arm·step/2 over the
-// stiffness.
-TEST_F(SimulatedDeviceTest, RestingGripBalancesTheCommandedTensions) {
-  const GripModel model;
-  SimulatedDevice device(profile, kFixedStep, model);
-  device.open();
-  StringVector tension_N = StringVector::Constant(0.5);
-  tension_N[6] = 2.0;
-  tension_N[3] = 1.3;
-  DeviceReading reading;
-  for (int tick = 0; tick < 3000; ++tick) device.exchange(volts_for(profile, tension_N), reading);
-
-  const FeltState felt = device.felt();
-  const Eigen::Matrix<double, 6, 1> wrench =
-      structure_matrix(profile.geometry, felt.pose) * tension_N;
-  double off_N = 0;
-  for (int i = 0; i < profile.geometry.count; ++i) off_N += step_N(profile, i) / 2;
-  const double arm_m = profile.geometry.grip_radius_m();
-  EXPECT_LT((felt.pose.position_m - wrench.head<3>() / model.hand_stiffness_N_m).norm(),
-            off_N / model.hand_stiffness_N_m);
-  EXPECT_LT(
-      (rotation_vector(felt.pose.orientation) - wrench.tail<3>() / model.hand_stiffness_Nm_rad)
-          .norm(),
-      off_N * arm_m / model.hand_stiffness_Nm_rad);
-  EXPECT_LT((felt.wrench.force_N - wrench.head<3>()).norm(), off_N);
-  EXPECT_GT(wrench.head<3>().norm(), 100 * off_N) << "too small a force to say anything";
 }
 
 TEST_F(SimulatedDeviceTest, HandThatIsNotFiniteIsIgnored) {

@@ -26,36 +26,6 @@ TEST_F(SimulatedDeviceTest, SilentHostLeavesTheStringsPulling) {
   EXPECT_NEAR(after.tension_N[0], before.tension_N[0], 1e-12);
 }
 
-TEST_F(SimulatedDeviceTest, FaultsAnswerAsToldUntilTheyEnd) {
-  SimulatedDevice device(profile, kFixedStep, without_lag());
-  device.open();
-  const MotorVolts volts = volts_for(profile, StringVector::Constant(1.0));
-  DeviceReading reading;
-
-  device.set_fault(LinkFault::kWrongReply);
-  reading.count.fill(77);
-  for (int tick = 0; tick < 2; ++tick)
-    EXPECT_EQ(device.exchange(volts, reading), LinkFault::kWrongReply);
-  EXPECT_EQ(reading.count[0], 77) << "written although the reply was bad";
-  EXPECT_GT(device.felt().tension_N[0], 0.9) << "the volts arrive, only the reply is bad";
-
-  device.set_fault(LinkFault::kNone);
-  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
-  EXPECT_NE(reading.count[0], 77);
-
-  device.set_fault(LinkFault::kGone);
-  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone);
-  EXPECT_TRUE(device.felt().tension_N.isZero(0));
-  EXPECT_THROW(device.open(), DeviceError);
-  device.close();
-
-  device.set_fault(LinkFault::kNone);
-  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone) << "lost until opened again";
-  device.open();
-  EXPECT_EQ(device.felt().time_ns, 0);
-  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
-}
-
 TEST_F(SimulatedDeviceTest, ClosingRelaxesTheMotorsAndEverythingFeltIsKept) {
   SimulatedDevice device(profile, kFixedStep);
   FeltState felt;
@@ -117,23 +87,6 @@ TEST_F(SimulatedDeviceTest, OtherThreadsSeeWholeStates) {
   reader.join();
   hand.join();
   EXPECT_EQ(torn, 0);
-}
-
-TEST_F(SimulatedDeviceTest, ClockModeTakesTheTimeThatPassedUpToFiftyMilliseconds) {
-  SimulatedDevice device(profile, SimulatedDevice::Time::kClock);
-  const auto start = std::chrono::steady_clock::now();
-  device.open();
-  DeviceReading reading;
-  for (int tick = 0; tick < 20; ++tick) device.exchange({}, reading);
-  const auto passed = std::chrono::steady_clock::now() - start;
-  const int64_t before_ns = device.felt().time_ns;
-  EXPECT_GE(before_ns, 0);
-  EXPECT_LE(before_ns, std::chrono::nanoseconds(passed).count());
-
-  // sleep_for() never returns early.
-  std::this_thread::sleep_for(std::chrono::milliseconds(60));
-  device.exchange({}, reading);
-  EXPECT_EQ(device.felt().time_ns - before_ns, 50'000'000);
 }
 
 }  // namespace spidar::test::simulated_faults_test

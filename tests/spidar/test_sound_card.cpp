@@ -9,6 +9,7 @@
 #include "spidar/realtime/monotonic.h"
 #include "tests/spidar/sound_fixture.h"
 #include "tests/support/felt_player.h"
+#include "tests/support/messages.h"
 
 namespace spidar::test::sound_card_test {
 namespace {
@@ -94,8 +95,8 @@ TEST(SoundBoard, SaysThatItRanDryMoreThanOnce) {
     return board.warning();
   };
   EXPECT_EQ(warning_after(1), "");
-  EXPECT_NE(warning_after(3).find("3 times"), std::string::npos);
-  EXPECT_NE(warning_after(12).find("every 85 ms"), std::string::npos);
+  expect_contains(warning_after(3), "3 times");
+  expect_contains(warning_after(12), "every 85 ms");
 }
 
 bool program_was_told = false;

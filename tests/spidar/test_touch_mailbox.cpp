@@ -35,34 +35,6 @@ bool publish(touch::Mailbox& mailbox, int64_t number) {
   return true;
 }
 
-TEST(TouchMailbox, KeepsOrderAndSize) {
-  touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
-  EXPECT_EQ(mailbox.front(), nullptr);
-  int64_t read = 0;
-  for (int64_t round = 0; round < 5; ++round) {
-    for (int64_t i = 0; i < 3; ++i) EXPECT_TRUE(publish(mailbox, 3 * round + i));
-    EXPECT_EQ(mailbox.begin(mailbox.generation()), nullptr) << "all three are in use";
-    for (size_t nth = 0; nth < 3; ++nth) {
-      ASSERT_NE(mailbox.front(nth), nullptr);
-      EXPECT_EQ(mailbox.front(nth)->time_ns, read + static_cast<int64_t>(nth));
-    }
-    EXPECT_EQ(mailbox.front(3), nullptr);
-    for (int i = 0; i < 3; ++i, ++read) {
-      EXPECT_EQ(mailbox.front()->time_ns, read);
-      mailbox.drop();
-    }
-    EXPECT_EQ(mailbox.front(), nullptr);
-  }
-}
-
-TEST(TouchMailbox, WhatIsBegunIsNotThereBeforeItIsPublished) {
-  touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
-  ASSERT_NE(mailbox.begin(mailbox.generation()), nullptr);
-  EXPECT_EQ(mailbox.front(), nullptr);
-  mailbox.publish();
-  EXPECT_NE(mailbox.front(), nullptr);
-}
-
 TEST(TouchMailbox, AFrameIsOfTheGenerationItWasBegunIn) {
   touch::Mailbox mailbox(kWidth_m, kHeight_m, 3);
   const uint32_t before = mailbox.generation();

@@ -7,6 +7,7 @@
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/tty_transport.h"
 #include "tests/spidar/board_bench.h"
+#include "tests/spidar/device_test.h"
 #include "tests/support/pseudo_terminal.h"
 #include "tests/support/recorded_motors.h"
 #include "tests/support/temporary_folder.h"
@@ -22,10 +23,7 @@ class UartLines : public testing::Test {
  protected:
   /// Guarded by nobody, and exchanging on this thread.
   std::unique_ptr<StringDevice> device(const std::string& spec) const {
-    boards::Settings settings;
-    settings.guardian = false;
-    settings.threaded = false;
-    return make_device(spec, profile, settings);
+    return make_device(spec, profile, unguarded());
   }
 
   // The line's thread is a scheduler away: a slow machine may miss deadlines, not answers.
@@ -81,14 +79,9 @@ TEST_F(UartLines, AskedForTwiceInOneProcess) {
   const auto board = device("uart:" + line.path());
   open(*board);
   const auto again = device("uart:" + line.path());
-  try {
-    again->open();
-    FAIL() << "two would pull at the same strings";
-  } catch (const DeviceError& error) {
-    const std::string text = error.what();
-    EXPECT_NE(text.find(line.path()), std::string::npos) << text;
-    EXPECT_NE(text.find("another element of this one"), std::string::npos) << text;
-  }
+  const std::string text = opening(*again);
+  expect_contains(text, line.path());
+  expect_contains(text, "another element of this one");
   board->close();
   open(*again);
 }
@@ -140,10 +133,8 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
   lines.push_back(std::make_unique<TtyTransport>("uart", line->path(), uart_motor::kBaud));
   lines.push_back(std::make_unique<emulated::Transport>(std::make_unique<emulated::Uart>(
       second_motors, std::vector<emulated::Uart::Station>{{0, kB3M}})));
-  boards::Settings settings;
-  settings.guardian = settings.threaded = false;
   const auto board = std::make_unique<boards::StringLink>(
-      std::make_unique<boards::Uart>("uart", profile, std::move(lines)), settings);
+      std::make_unique<boards::Uart>("uart", profile, std::move(lines)), unguarded());
   open(*board);
   DeviceReading reading;
   exchange_until(*board, 1, LinkFault::kNone, reading);
@@ -161,22 +152,13 @@ TEST_F(UartLines, AHangUpIsAnUnplug) {
 }
 
 TEST_F(UartLines, OpenSaysWhatIsWrong) {
-  const auto opening = [&](const std::string& spec) -> std::string {
-    try {
-      device(spec)->open();
-      return {};
-    } catch (const DeviceError& error) {
-      return error.what();
-    }
-  };
-  EXPECT_EQ(opening("uart:/nowhere/tty"),
+  const auto says = [&](const std::string& spec) { return opening(*device(spec)); };
+  EXPECT_EQ(says("uart:/nowhere/tty"),
             "uart:/nowhere/tty: cannot be opened: No such file or directory; serial lines have "
             "names such as /dev/ttyUSB0 and /dev/serial/by-id/…");
-  EXPECT_NE(opening("uart:/dev/null").find("it is no serial line"), std::string::npos)
-      << opening("uart:/dev/null");
+  expect_contains(says("uart:/dev/null"), "it is no serial line");
   UartLine line({first_motors, {}});
-  EXPECT_NE(opening("uart:" + line.path()).find("0 motor boards answer, with 0 motors"),
-            std::string::npos);
+  expect_contains(says("uart:" + line.path()), "0 motor boards answer, with 0 motors");
 }
 
 TEST_F(UartLines, OnlyTheSameBoardsComeBack) {
@@ -192,26 +174,14 @@ TEST_F(UartLines, OnlyTheSameBoardsComeBack) {
   open(*board);
   board->close();
   point_to(other);
-  try {
-    open(*board);
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("is another device"), std::string::npos)
-        << error.what();
-  }
+  expect_contains(message_of<DeviceError>([&] { open(*board); }), "is another device");
   EXPECT_EQ(second.updates, 0u);
   point_to(line);
   open(*board);
   board->close();
   // The adapter is the same, and what is connected to it is not.
   line.connect({second_motors, {{5, kB5M}}});
-  try {
-    open(*board);
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("these are other boards"), std::string::npos)
-        << error.what();
-  }
+  expect_contains(message_of<DeviceError>([&] { open(*board); }), "these are other boards");
 }
 
 TEST(TtyList, AnAdapterIsKnownWhateverItsNumber) {

@@ -12,6 +12,7 @@
 #include "spidar/folders.h"
 #include "spidar/limits/vibration_memory.h"
 #include "spidar/realtime/monotonic.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
@@ -102,8 +103,8 @@ TEST_F(VibrationMemories, WithoutAUsableFileHalfCountsAsUsed) {
     write(text);
     VibrationMemory memory(file);
     EXPECT_EQ(memory.add(0, at(kHour)), kEmpty_ns / 2) << text.substr(0, 300);
-    EXPECT_NE(memory.error().find(file), std::string::npos);
-    EXPECT_NE(memory.error().find("not what this program writes"), std::string::npos);
+    expect_contains(memory.error(), file);
+    expect_contains(memory.error(), "not what this program writes");
     // It is written anew, and all that counts is in it.
     EXPECT_EQ(memory.add(kHour, at(kHour)), kEmpty_ns / 2 + kHour);
     VibrationMemory next(file);
@@ -116,7 +117,7 @@ TEST_F(VibrationMemories, AFileThatCannotBeOpenedIsSaid) {
   fs::create_directories(file);  // a folder
   VibrationMemory folder_there(file);
   EXPECT_EQ(folder_there.add(0, at(kHour)), kEmpty_ns / 2);
-  EXPECT_NE(folder_there.error().find("Is a directory"), std::string::npos);
+  expect_contains(folder_there.error(), "Is a directory");
   // Half once, and then what is known.
   EXPECT_EQ(folder_there.add(kHour, at(2 * kHour)), kEmpty_ns / 2);
   fs::remove(file);
@@ -155,7 +156,7 @@ TEST_F(VibrationMemories, AHomeThatMayNotBeWrittenIsNamedAsThat) {
   memory.add(0, at(kHour));
   ASSERT_EQ(seteuid(user), 0);
   fs::permissions(folder.path, fs::perms::owner_write, fs::perm_options::add);
-  EXPECT_NE(memory.error().find("Permission denied"), std::string::npos) << memory.error();
+  expect_contains(memory.error(), "Permission denied");
 }
 
 TEST(UserFolder, IsNeverBelowTheCurrentOne) {
@@ -188,7 +189,7 @@ TEST_F(VibrationMemories, AFileThatOthersMayWriteIsSaidAndNotTrusted) {
   const auto expect_said = [&](const std::string& what) {
     VibrationMemory memory(file);
     EXPECT_EQ(memory.add(0, at(kHour)), kEmpty_ns / 2);
-    EXPECT_NE(memory.error().find(what), std::string::npos) << memory.error();
+    expect_contains(memory.error(), what);
   };
   fs::permissions(file, fs::perms::group_write, fs::perm_options::add);
   expect_said("others may write it");
@@ -220,7 +221,7 @@ TEST_F(VibrationMemories, AFullDiskIsSaid) {
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, ignored);
   EXPECT_EQ(empty_ns, kEmpty_ns / 2);
-  EXPECT_NE(memory.error().find("File too large"), std::string::npos) << memory.error();
+  expect_contains(memory.error(), "File too large");
 }
 
 TEST_F(VibrationMemories, AFileThatSomebodyElseHoldsIsNotWaitedForLong) {

@@ -8,6 +8,7 @@
 #include "spidar/selftest/hold.h"
 #include "spidar/selftest/selftest_report.h"
 #include "spidar/selftest/wiring_report.h"
+#include "tests/support/messages.h"
 #include "tests/support/miswired_device.h"
 #include "tests/support/test.h"
 
@@ -49,9 +50,9 @@ selftest::WiringReport test_of(const Profile& profile, const std::string& faults
 
 TEST(LossText, SaysForHowLongTheProgramStoodStillOnlyIfThatIsKnown) {
   const std::string known = selftest::loss_text("usb", LinkFault::kSuspended, 250'000'000);
-  EXPECT_NE(known.find("stood still for 250 ms, because"), std::string::npos) << known;
+  expect_contains(known, "stood still for 250 ms, because");
   const std::string unknown = selftest::loss_text("usb", LinkFault::kSuspended, 0);
-  EXPECT_NE(unknown.find("stood still, because"), std::string::npos) << unknown;
+  expect_contains(unknown, "stood still, because");
 }
 
 /// Its guardian sets the motors to zero after each of these numbers of exchanges.
@@ -241,12 +242,8 @@ TEST(Wiring, AStringThatRunsAwayEndsTheTest) {
   nobody.hand_stiffness_N_m = 1;
   nobody.hand_damping_N_s_m = 0.5;
   SimulatedDevice device(profile, SimulatedDevice::Time::kFixedStep, nobody);
-  try {
-    selftest::measure_wiring(device, profile, at_once);
-    FAIL() << "nothing ran away";
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("hold the grip"), std::string::npos) << error.what();
-  }
+  const auto measure = [&] { selftest::measure_wiring(device, profile, at_once); };
+  expect_contains(message_of<DeviceError>(measure), "hold the grip");
 }
 
 TEST(Wiring, LostDeviceEndsTheTest) {

@@ -58,25 +58,6 @@ TEST(WrenchCallback, IsNotAskedWhileTheLoopCloses) {
   EXPECT_TRUE(driver.loop->released());
 }
 
-TEST(WrenchCallback, OneThatThrowsIsNotCalledAgain) {
-  LoopDriver driver;
-  driver.open();
-  int calls = 0;
-  const auto throws = [&](const CallbackInput&) -> Wrench {
-    if (++calls == 3) throw std::runtime_error("division by zebra " + std::string(300, 'z'));
-    return push_right(1);
-  };
-  driver.loop->callback().set(throws, kAnyEnergy);
-  EXPECT_TRUE(driver.run(200 * kMs).commanded.force_N.isZero());
-  EXPECT_EQ(calls, 3);
-  EXPECT_EQ(driver.loop->callback().state(), State::kThrew);
-  EXPECT_EQ(std::string(driver.loop->callback().thrown()).find("division by zebra"), 0u);
-  driver.loop->callback().set([](const CallbackInput&) -> Wrench { throw 3; }, kAnyEnergy);
-  driver.tick();
-  EXPECT_EQ(driver.loop->callback().state(), State::kThrew);
-  EXPECT_STREQ(driver.loop->callback().thrown(), "");
-}
-
 TEST(WrenchCallback, OneThatIsLateAgainAndAgainIsNotCalledAgain) {
   LoopDriver driver;
   driver.open();
@@ -104,16 +85,6 @@ TEST(WrenchCallback, WhatIsNotFiniteIsRefused) {
     EXPECT_TRUE(driver.run(10 * kMs).commanded.force_N.isZero());
     EXPECT_EQ(driver.counters().rejected_wrenches - before, 10u);
   }
-}
-
-TEST(WrenchCallback, APassiveOneDoesNotPushAHandThatRests) {
-  LoopDriver driver;
-  driver.open();
-  driver.loop->callback().set([](const CallbackInput&) { return Wrench{{1, 0, 0}, {0, 0, 0.01}}; });
-  // The impulse of half a tick is what a bound allows that looks a tick ahead.
-  const TickRecord last = driver.run(200 * kMs);
-  EXPECT_LT(last.commanded.force_N.norm(), 1e-6);
-  EXPECT_TRUE(last.commanded.torque_Nm.isZero());
 }
 
 /// When set() returns, what the function before refers to may go.
