@@ -14,8 +14,9 @@
 namespace spidar {
 namespace {
 
-/// The sizes of 32 bits that writers leave when they cannot seek back: the largest of either sign,
-/// minus some of the header (sox writes 0x7ffff000 minus a remainder), or only the first bit.
+/// Whether a size of 32 bits is one of those that writers leave when they cannot seek back: the
+/// largest size with or without a sign, less a part of the header (sox writes 0x7ffff000 minus a
+/// remainder), or only the first bit.
 bool is_unknown_size(uint64_t size) {
   constexpr uint64_t kRange = uint64_t{1} << 31, kHeads = uint64_t{1} << 16;
   return size % kRange == 0 || size % kRange >= kRange - kHeads;
@@ -43,7 +44,8 @@ bool is_box(const std::string& type) {
                      [&type](const char* one) { return type == one; });
 }
 
-/// ISO/IEC 14496-12. Data behind a complete film that are no box of it have been appended.
+/// ISO/IEC 14496-12. Data after a complete film that are not a box were appended by another
+/// program.
 FilmEnd end_of_boxes(FileBytes& file) {
   bool has_index = false, has_pictures = false, has_fragments = false;
   for (uint64_t at = 0; at < file.size();) {
@@ -292,8 +294,8 @@ FlacLength flac_length(FileBytes& file) {
   return length;
 }
 
-/// Programs that trim a file copy whole frames, and leave the old length in its header: the file is
-/// cut off only where a frame is incomplete.
+/// A file counts as cut off only if its last frame is incomplete, whatever its header states:
+/// programs that trim a file copy whole frames and leave the old length in the header.
 FileLength length_of_flac(FileBytes& file) {
   const FlacLength flac = flac_length(file);
   if (flac.rate_Hz == 0 || !flac.end || *flac.end < flac.begin) return {};

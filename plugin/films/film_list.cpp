@@ -94,7 +94,8 @@ class FilmSearch {
     std::error_code gone;  // it may be renamed or removed in the meantime
     const bool is_link = entry.is_symlink(gone);
     if (entry.is_directory(gone)) {
-      // The trash of a desktop, and what a file server keeps for Macs under the names of the films.
+      // Such as the trash of a desktop, or the files with the names of films that a file server
+      // keeps for Macs.
       if (is_hidden(entry.path())) {
         ++passed_over_["hidden folder"];
       } else if (is_link) {

@@ -127,7 +127,7 @@ std::optional<int64_t> find_picture(const FilmFingerprint& fingerprint,
 
 namespace {
 
-/// The fingerprint comes from this many packets, or from fewer if they are large.
+/// The fingerprint is chosen from this many packets, or from fewer if they are large.
 constexpr size_t kStartPackets = 256;
 constexpr size_t kStartBytes = size_t{8} << 20;
 /// The most data from the last key frame to the end of the film.

@@ -210,10 +210,10 @@ ImageView FrameLuma::view(const GstVideoFrame& frame) {
     luma = unpacked(frame, shown);
   }
   if (GST_VIDEO_FRAME_IS_INTERLACED(&frame) && luma.height >= 2) {
-    // In a crop that begins on an odd line, the other field comes first.
+    // If the crop begins on an odd line, its first line is one of the other field.
     luma = first_field(luma, GST_VIDEO_FRAME_IS_TFF(&frame) == (shown.y % 2 == 0));
   } else if (combing_.update(luma)) {
-    // The earlier field is unknown, so the first one is always taken.
+    // It is unknown which field is the earlier one, so the first is always used.
     luma = first_field(luma, true);
   }
   return luma;

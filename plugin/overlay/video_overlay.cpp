@@ -134,7 +134,7 @@ class Sheet {
   void blend_into(GstVideoFrame& frame) const;
 
  private:
-  static constexpr int kShift = 4;            // OpenCV takes whole numbers of 1/16 px
+  static constexpr int kShift = 4;            // OpenCV expects whole numbers of 1/16 px
   static constexpr double kFar_px = 1 << 20;  // no overflow, and nothing there is visible
 
   static bool is_near(const Eigen::Vector2d& px) {

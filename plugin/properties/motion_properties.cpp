@@ -39,8 +39,8 @@ MotionRow parsed(PropertyNames n, std::optional<Value> (*parse)(const std::strin
           }};
 }
 
-/// Where the user does not set alpha, mean velocities get the steepness that is closest to the
-/// paper: the still background makes them small (docs/feeling.md, What can be told apart).
+/// Unless the user sets alpha, motion=mean gets the steepness that is closest to the paper, because
+/// the still background makes mean velocities small (docs/feeling.md, What can be told apart).
 void follow_motion(MotionProperties& properties) {
   constexpr double kOfMean_s_px = 0.01;
   if (properties.alpha_is_set) return;

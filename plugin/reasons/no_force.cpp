@@ -106,8 +106,8 @@ static_assert(is_in_order());
 /// A slower motion, in px/s of a frame 480 lines high, does not count: half of 2.1 px/s, whose
 /// force a hand just feels with an alpha of 0.01 s/px (docs/feeling.md).
 constexpr double kMoving_px_s = 1;
-/// With fewer points no motion differs from the background's: a translation of the background takes
-/// one of them, and an object two.
+/// With fewer points, no motion can differ from the background's: one point is needed for a
+/// translation of the background, and two for an object.
 constexpr int kFewestPoints = 4;
 /// When a hand swings a slack string, the pose is lost for less than this.
 constexpr int64_t kGripLost_ns = 100'000'000;

@@ -11,9 +11,9 @@
 namespace spidar {
 namespace {
 
-/// The shortest interval between frames: an eighth of the interval in the caps, within plausible
-/// limits. If frames are closer together, one timestamp is wrong, and a motion must not be divided
-/// by their difference.
+/// The shortest plausible interval between frames: an eighth of the interval in the caps, within
+/// limits. If two frames are closer together, one of their timestamps is wrong, and a motion must
+/// not be divided by the difference.
 int64_t least_interval_ns(const GstVideoInfo& info, double rate) {
   constexpr double kMax_ns = 5e6;
   if (info.fps_n <= 0) return kMinInterval_ns;

@@ -79,7 +79,7 @@ class CsvReader {
 
   void read() {
     while (next_record()) {
-      if (width_ > 0 || !learn()) add_row(split(record_, separator_));
+      if (width_ > 0 || !detect_format()) add_row(split(record_, separator_));
     }
     if (!has_row_) fail("the table has no rows");
   }
@@ -120,7 +120,7 @@ class CsvReader {
   }
 
   /// Detects the format of the table from its first line. Returns whether this line has names.
-  bool learn() {
+  bool detect_format() {
     for (const char separator : separators_) {
       separator_ = separator;
       const Fields fields = split(record_, separator);

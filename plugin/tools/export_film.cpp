@@ -191,7 +191,7 @@ class ExportedFilm {
     };
   }
 
-  /// Places the arrow on the felt object, if the track tells how it was measured.
+  /// Places the arrow on the felt object, if the track states how it was measured.
   void place_arrow() {
     const auto report = next_part();
     if (!condition_.notes.settings) return;

@@ -83,11 +83,11 @@ constexpr const char* kNoSound =
     "its sound is left out: GStreamer has no encoder of AAC; install gstreamer1.0-libav "
     "(avenc_aac)";
 
-/// Sound that containers take without encoding.
+/// Sound that is copied into the container without encoding.
 constexpr const char* kCopied =
     "audio/mpeg,mpegversion=(int)4,stream-format=(string)raw,framed=(boolean)true; "
     "audio/mpeg,mpegversion=(int)1,layer=(int)3,parsed=(boolean)true";
-/// Text as containers take it.
+/// Text as it is written into containers.
 constexpr const char* kPlainText = "text/x-raw,format=(string)utf8";
 
 std::string format_of(const GstCaps* caps) {

@@ -66,8 +66,8 @@ GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
   return GST_PAD_PROBE_OK;
 }
 
-/// Moves the segments that pass `pad` so that running time is stream time, by which a replay finds
-/// the track. They differ where a film does not begin at 0: MPEG-TS, MPEG-PS, FLV.
+/// Moves the segments that pass `pad` so that running time is stream time, the time by which a
+/// replay reads the track. The two differ if a film does not begin at 0 (MPEG-TS, MPEG-PS, FLV).
 void follow_stream_time(GstPad* pad) {
   gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
 }

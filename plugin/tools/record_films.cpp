@@ -108,7 +108,7 @@ class ManifestFile {
 namespace fs = std::filesystem;
 
 /// The period of checks whether another process has finished a track.
-constexpr std::chrono::milliseconds kLook{200};
+constexpr std::chrono::milliseconds kCheckPeriod{200};
 
 /// Records a list of films with several processes, for each of which a thread waits.
 class FilmBatch {
@@ -196,7 +196,7 @@ class FilmBatch {
   void work() {
     while (const std::optional<Film> film = next()) {
       try {
-        if (film->is_elsewhere) std::this_thread::sleep_for(kLook);
+        if (film->is_elsewhere) std::this_thread::sleep_for(kCheckPeriod);
         if (finish(film->index)) continue;
         if (!film->is_elsewhere) report_.note(film->index, "another process is recording it");
         // Try this film again after all others.

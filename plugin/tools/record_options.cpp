@@ -218,7 +218,7 @@ void set_films(RecordOptions& options, const std::vector<std::string>& names,
                const std::vector<std::string>& properties) {
   for (const std::string& film : names) {
     expect_no_property(film, "record FILM");
-    // Other programs take the output after the input.
+    // In other programs, the output follows the input.
     if (film != names.front() && ends_as_track(film) && !fs::exists(film)) {
       refuse_output(names.front(), film);
     }

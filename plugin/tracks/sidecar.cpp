@@ -48,9 +48,9 @@ std::vector<fs::path> track_folders() {
   return folders;
 }
 
-/// Tracks of a film: beside it, and then in folders of tracks, where `spidartrack record` gives
-/// them the subfolders of their films. The parent folder of these is unknown, so the track that
-/// agrees in most of the path comes first.
+/// Lists the tracks of a film: beside the film, then in folders of tracks, in which `spidartrack
+/// record` repeats the subfolders of the films. It is unknown below which folder these subfolders
+/// were, so the track whose path has the most folders in common with that of the film comes first.
 std::vector<std::string> list_tracks(const std::string& film) {
   std::vector<std::string> files = list_beside(film, kTrackSuffixes);
   if (film.empty()) return files;
@@ -69,7 +69,7 @@ std::vector<std::string> list_tracks(const std::string& film) {
   return files;
 }
 
-/// The first of `files`, among which is `file`, if it is another one; else empty.
+/// Returns the first of `files` if that is not `file`, which is one of them; else an empty text.
 std::string first_before(const std::vector<std::string>& files, const std::string& file) {
   const auto is_file = [&file](const std::string& other) {
     std::error_code ignored;

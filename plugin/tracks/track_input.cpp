@@ -19,7 +19,8 @@ bool has_no_mask(const GstCaps* caps) {
          !gst_structure_has_field(structure, "channel-mask");
 }
 
-/// Returns the channel mask as text, unless it is none, or 5.1, to which containers convert none.
+/// Returns the channel mask as text. Empty if there is no mask, or if it is that of 5.1, which
+/// containers set if there is none.
 std::string unsupported_mask(const GstCaps* caps) {
   guint64 mask = 0;
   const GstStructure* structure = gst_caps_get_structure(caps, 0);

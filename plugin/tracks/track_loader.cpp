@@ -87,7 +87,7 @@ void post_what_is_felt(GstElement* element, const std::string& text) {
 }
 
 /// Warns of properties that are set and change nothing while a track is played.
-void name_unused(GstElement* element, const std::string& path) {
+void warn_of_unused(GstElement* element, const std::string& path) {
   g_autofree gchar* feel = nullptr;
   g_object_get(element, "feel", &feel, nullptr);
   if (feel) {
@@ -230,7 +230,7 @@ std::shared_ptr<ReadAhead> FeltTrack::judge(const LoadedTrack& loaded, int64_t f
     remark = "is felt, as track= says, though " + std::exchange(error, {});
   }
   if (error.empty()) {
-    name_unused(element, loaded.path);
+    warn_of_unused(element, loaded.path);
     if (!remark.empty()) {
       GST_ELEMENT_WARNING(element, RESOURCE, SETTINGS,
                           ("The haptic track %s %s.", loaded.path.c_str(), remark.c_str()),

@@ -85,10 +85,10 @@ class Process {
 
   int socket() const { return socket_; }
 
-  /// Waits until the child has ended, and kills it after `patience_ms`. Returns an empty string if
+  /// Waits until the child has ended, and kills it after `timeout_ms`. Returns an empty string if
   /// the child ended by itself with status 0, otherwise how it ended: "was ended by the signal 11
   /// (Segmentation fault)".
-  std::string finish(int patience_ms) {
+  std::string finish(int timeout_ms) {
     if (process_ < 0) return "";
     constexpr int kStep_ms = 5;
     int status = 0;
@@ -96,7 +96,7 @@ class Process {
     for (int waited_ms = 0; ended == 0; waited_ms += kStep_ms) {
       ended = uninterrupted([&] { return waitpid(process_, &status, WNOHANG); });
       if (ended != 0) break;
-      if (waited_ms == patience_ms / kStep_ms * kStep_ms) kill(process_, SIGKILL);
+      if (waited_ms == timeout_ms / kStep_ms * kStep_ms) kill(process_, SIGKILL);
       const timespec step{0, kStep_ms * 1'000'000};
       nanosleep(&step, nullptr);
     }

@@ -168,7 +168,7 @@ class ElementSource final : public window::Source {
       g_object_set(held.get(), "feel", feel.empty() ? "auto" : feel.c_str(), nullptr);
       return {true, done};
     } catch (const std::runtime_error& error) {
-      // A small window has no room for the folder.
+      // A small window has no space for the folder.
       std::string why = error.what();
       const std::string folder = film.substr(0, film.rfind('/') + 1);
       if (!folder.empty() && why.rfind(folder, 0) == 0) why.erase(0, folder.size());

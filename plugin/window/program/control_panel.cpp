@@ -37,8 +37,8 @@ const char* unit_of(const Setting& setting) {
   return "";
 }
 
-/// Returns true when the slider was moved. The value is beside the slider, whose handle would be
-/// drawn over it; only a value that is being typed is inside.
+/// Returns true when the slider was moved. The value is shown beside the slider, because the handle
+/// would be drawn over a value inside; only a value that is being typed is inside.
 bool number_widget(const Brush& brush, const Setting& setting, double& value) {
   const double range = setting.high - setting.low;
   const bool is_far_left = setting.low >= 0 && setting.usual - setting.low < kFarLeft * range;
@@ -256,11 +256,11 @@ void draw_status(const Brush& brush, const Rect& panel, const ElementState& stat
   brush.list.AddCircleFilled({at.x + radius, at.y}, radius, note.empty() ? color : kAccentColor);
   at.x += 2 * radius + brush.px(7);
   const std::string said = note.empty() ? felt_line(state, report.touch, now) : note;
-  const float room = static_cast<float>(panel.right()) - brush.px(10) - at.x;
-  if (text_size(font, said).x <= room) {
+  const float space = static_cast<float>(panel.right()) - brush.px(10) - at.x;
+  if (text_size(font, said).x <= space) {
     draw_text(brush, font, {at.x, at.y - font->FontSize / 2}, kTextColor, said);
   } else {
-    draw_wrapped(brush, small, at, kTextColor, said, room);
+    draw_wrapped(brush, small, at, kTextColor, said, space);
   }
   const double left = at.x + text_size(font, said).x + 16 * brush.scale;
 

@@ -28,8 +28,9 @@ constexpr int kMinWidth = 560, kMinHeight = 380;
 constexpr double kNote_s = 4;
 /// After this time without a frame, the plots stop, so that the end of a film stays visible.
 constexpr double kIdle_s = 1;
-/// The scale of text in the coordinates of the window: where a screen has several pixels to one of
-/// them, as with Wayland, the frame buffer already has these pixels.
+/// The scale of text in the coordinates of the window. If a screen has several pixels per
+/// coordinate, as with Wayland, the frame buffer already has these pixels, and text needs no larger
+/// scale.
 double screen_scale(GLFWwindow* window) {
   float x = 1, y = 1;
   glfwGetWindowContentScale(window, &x, &y);
@@ -216,7 +217,7 @@ ShownPicture DebugWindow::shown_picture() const {
     const Eigen::Vector3d& asked_N = report_.frame.wrench.force_N;
     const TickRecord& last = state_.device->last;
     const bool is_arrow = (last.delivered.force_N - asked_N).norm() < kUnseen * asked_N.norm();
-    // Two names beside one number would tell nothing.
+    // Two names beside one number would be of no use.
     if ((is_arrow && are_same(last.wanted, last.delivered)) ||
         are_same(report_.frame.wrench, last.delivered)) {
       picture.delivered_N = last.delivered.force_N.norm();

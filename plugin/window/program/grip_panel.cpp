@@ -66,7 +66,7 @@ void draw_strings(const Brush& brush, const GripProjection& project, const Devic
     brush.list.AddLine(im(exit), im(project(last.pose.position_m + R * device.geometry.grip_m[k])),
                        color, brush.px(1.2 + 2.5 * std::clamp(fraction, 0.0, 1.0)));
     brush.list.AddCircleFilled(im(exit), brush.px(3.5), kTextColor);
-    // The number of the string stands beside its exit.
+    // The number of the string is beside its exit.
     const std::string number = std::to_string(i);
     const ImVec2 size = text_size(brush.fonts.small, number);
     const double side = exit.x() < project(Eigen::Vector3d::Zero()).x() ? -1 : 1;

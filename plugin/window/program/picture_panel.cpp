@@ -118,7 +118,8 @@ void draw_objects(const Overlay& over) {
   }
 }
 
-/// Writes newtons and the name `which` of a force, `along` from `beyond`, or where it fits.
+/// Writes the newtons of a force and its name `which` beside `beyond`, in the direction `along`,
+/// moved so that the text fits into the panel.
 void draw_size(const Overlay& over, double force_N, const char* which,
                const Eigen::Vector2d& beyond, const Eigen::Vector2d& along) {
   if (force_N < kFeltForce_N) return;
@@ -144,7 +145,7 @@ bool draw_force(const Overlay& over, const Wrench& wrench, double shown_N, const
   if (!felt) return false;
   draw_arrow(over.brush, *felt, IM_COL32(0, 0, 0, 255), over.brush.px(1.75));
   draw_arrow(over.brush, *felt, color_of(felt->color, 255));
-  // The number stands beyond the tip.
+  // The number is beyond the tip.
   draw_size(over, shown_N, which, felt->tip_px, (felt->tip_px - felt->tail_px).normalized());
   return true;
 }
@@ -254,8 +255,8 @@ void draw_keys(const Brush& brush, const Rect& picture) {
   const double w = names + width + 3 * margin, h = kKeys.size() * line + 2 * margin;
   const double x = std::max(picture.x, picture.x + (picture.width - w) / 2);
   // The text stands in the middle, or below the switches.
-  const double room = std::max(picture.height - h, 0.0);
-  const double y = picture.y + (room / 2 < 44 * brush.scale ? room : room / 2);
+  const double space = std::max(picture.height - h, 0.0);
+  const double y = picture.y + (space / 2 < 44 * brush.scale ? space : space / 2);
   brush.list.AddRectFilled(im(x, y), im(x + w, y + h), IM_COL32(12, 14, 18, 225), brush.px(6));
   double at = y + margin;
   for (const auto& [key, what] : kKeys) {

@@ -49,7 +49,7 @@ void Plot::draw_axes(const std::string& x_unit, const std::string& y_unit) const
     brush_.list.AddLine(low, at(tick, y_.high), kGridColor);
     const std::string label = x_.label(tick);
     const float width = text_size(font, label).x;
-    // A last label without space beside the unit stands before it.
+    // If there is no space beside the unit for the last label, the label is placed before the unit.
     if (low.x + width / 2 + gap > unit_x) {
       if (unit_x - width - gap > free_x) last = label + " " + x_unit;
       continue;
@@ -131,12 +131,12 @@ void Plot::legend(const std::vector<std::pair<const char*, ImU32>>& keys) const 
   const ImFont* font = brush_.fonts.small;
   const float gap = brush_.px(kGap_px), stroke = brush_.px(12);
   // The names stand to the right of the unit; the last ones are left out when there is no space.
-  const float room = static_cast<float>(area_.width) - unit_width_ - 2 * gap;
+  const float space = static_cast<float>(area_.width) - unit_width_ - 2 * gap;
   float width = 0;
   size_t count = 0;
   for (; count < keys.size(); ++count) {
     const float next = stroke + 3 * gap + text_size(font, keys[count].first).x;
-    if (width + next - 2 * gap > room) break;
+    if (width + next - 2 * gap > space) break;
     width += next;
   }
   ImVec2 at = im(area_.right() - width + 2 * gap, area_.y - font->FontSize - gap);

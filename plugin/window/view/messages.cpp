@@ -111,10 +111,10 @@ struct Members {
   }
 };
 
-/// Writes values, or reads written ones. Writing does not change them.
+/// Writes values, or reads values that were written. Writing does not change the values.
 ///
-/// Reading survives any other bytes: once a value does not fit into the rest or into its own range,
-/// ok() is false, and the values are meaningless.
+/// Any bytes can be read safely: after a value that does not fit into the rest of the bytes, or
+/// into its own range, ok() is false and the values are meaningless.
 template <bool kReads>
 class Wire {
  public:
