@@ -48,8 +48,8 @@ constexpr Force kForces[] = {
     {"torque, mN m\\n(about z)", 4, 9, 5, 1e3, spidar::kTorqueArm_m},
 };
 
-/// Lines are interrupted by the blank lines at the beginning of a scene. There the position, which
-/// is the sum of the motion in the scene, begins again at zero.
+/// The blank lines at the beginning of a scene interrupt the curves. The position is the sum of the
+/// motion in a scene, so it begins again at zero there.
 void write_frames(std::ostream& script, const Record& record) {
   script << "$frames << END\n";
   double x_px = 0, y_px = 0, last_s = 0;
@@ -119,8 +119,8 @@ void draw_position(std::ostream& script) {
             "plot $frames using 1:2 title 'x, right', $frames using 1:3 title 'y, up'\n";
 }
 
-/// A line at zero is necessary because gnuplot draws no picture without a point, for example of a
-/// single frame.
+/// Draws a line at zero as well, because gnuplot draws no picture without a point, for example for
+/// a single frame.
 void draw_velocity(std::ostream& script) {
   script << "set ylabel 'velocity, px/s'\n"
             "plot 0 linecolor rgb '#d8d8d8' linewidth 0.5 notitle, $frames using 1:4 linetype 1 "

@@ -59,7 +59,8 @@ bool ends_early(GstElement* pipeline) {
          position + kMuch_ns < duration;
 }
 
-/// The last line of GStreamer's debug text has the reason; the lines before tell the place.
+/// The last line of GStreamer's debug text has the reason; the lines before it state the place in
+/// the source.
 std::string last_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();
   return text.substr(text.rfind('\n') + 1);

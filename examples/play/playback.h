@@ -18,9 +18,9 @@ struct PlaybackWatch {
   std::function<std::string()> progress;
   /// Whether the user has not closed the window of the video.
   std::function<bool()> is_wanted;
-  /// Takes each message `spidar-motion`.
+  /// Called with each message `spidar-motion`.
   std::function<void(const GstStructure*)> on_motion;
-  /// Takes each message `spidar-device`.
+  /// Called with each message `spidar-device`.
   std::function<void(const GstStructure*)> on_device;
   /// Called fifty times a second while the video plays, with its running time.
   std::function<void(double time_s)> on_moment;

@@ -38,9 +38,9 @@ struct DeviceRow {
 /// What spidarmotion reports while a film is played, in order.
 class Record {
  public:
-  /// Takes a message `spidar-motion`, which comes before its frame is shown.
+  /// Adds the frame of a message `spidar-motion`, which comes before the frame is shown.
   void add_frame(const GstStructure* message);
-  /// Takes the element's `stats`, if a device runs.
+  /// Adds a row from the element's `stats`, if a device runs.
   void add_device(const GstStructure* stats, double time_s);
 
   /// The frames without those that repeat a picture, whose force remains.
