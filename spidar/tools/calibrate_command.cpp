@@ -51,9 +51,10 @@ void check_together(const CalibrateOptions& options) {
 }
 
 /// The device to calibrate and, if it is simulated, its hand.
-class Bench {
+class CalibratedDevice {
  public:
-  Bench(const CalibrateOptions& options, const Profile& profile) : geometry_(profile.geometry) {
+  CalibratedDevice(const CalibrateOptions& options, const Profile& profile)
+      : geometry_(profile.geometry) {
     if (options.device != "sim") {
       // Offsets refer to the board's own counters.
       boards::Settings as_counted;
@@ -99,11 +100,12 @@ class Progress {
 };
 
 /// Returns false, with a message, when the wiring differs from the profile, or when interrupted.
-bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Bench& bench) {
-  bool told = false;
+bool is_wired_right(const CalibrateOptions& options, const Profile& profile,
+                    CalibratedDevice& calibrated) {
+  bool has_printed = false;
   const selftest::Pace pace = [&, next = every_millisecond()] {
     // Only an open device can be described.
-    if (!std::exchange(told, true)) {
+    if (!std::exchange(has_printed, true)) {
       std::cerr << "Hold the grip loosely at the centre. The strings are pulled one after the "
                    "other.\n";
     }
@@ -114,7 +116,7 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
   const auto [answers, report] = [&] {
     PullRows rows(profile.geometry.count);
     settings.pulled = rows.pulled();
-    return selftest::test_wiring(bench.device(), profile, pace, settings,
+    return selftest::test_wiring(calibrated.device(), profile, pace, settings,
                                  selftest::print_hold_still);
   }();
   if (!answers.complete) return false;
@@ -125,7 +127,7 @@ bool is_wired_right(const CalibrateOptions& options, const Profile& profile, Ben
 }
 
 calibration::CountSamples record(const CalibrateOptions& options, const Profile& profile,
-                                 Bench& bench) {
+                                 CalibratedDevice& calibrated) {
   const double seconds = options.centre ? kHoldSeconds : options.move_s();
   Progress progress(seconds);
   std::optional<double> begin_s;
@@ -141,11 +143,12 @@ calibration::CountSamples record(const CalibrateOptions& options, const Profile&
       begin_s = 1e-9 * static_cast<double>(monotonic_now_ns()) - time_s;
     }
     sleep_until_ns(static_cast<int64_t>(1e9 * (*begin_s + time_s)));
-    if (!options.centre) bench.move_hand(time_s);
+    if (!options.centre) calibrated.move_hand(time_s);
     progress.show(time_s);
     return !interrupted();
   };
-  return calibration::record_counts(bench.device(), profile, seconds, kSamplePeriod_s, next_tick);
+  return calibration::record_counts(calibrated.device(), profile, seconds, kSamplePeriod_s,
+                                    next_tick);
 }
 
 std::string how(const CalibrateOptions& options) {
@@ -226,7 +229,7 @@ int calibrate_command(const CalibrateOptions& options) {
   require_strings(board, "calibrate");
   const Profile profile = profile_for(options.device, options.profile);
   options.output.check();
-  Bench bench(options, profile);
+  CalibratedDevice calibrated(options, profile);
   if (!may_move(options.device, options.yes,
                 "Pull the strings of " + options.device +
                     " one after the other, then all of them taut? The grip will move; hold it "
@@ -234,10 +237,10 @@ int calibrate_command(const CalibrateOptions& options) {
     return kFailed;
   }
   catch_signals();
-  const bool wired_right = is_wired_right(options, profile, bench);
+  const bool wired_right = is_wired_right(options, profile, calibrated);
   if (!wired_right && !interrupted()) return kNotCalibrated;
   const calibration::CountSamples counts =
-      wired_right ? record(options, profile, bench) : calibration::CountSamples();
+      wired_right ? record(options, profile, calibrated) : calibration::CountSamples();
   if (interrupted()) {
     std::cerr << "interrupted; the strings are released\n";
     return kInterrupted;

@@ -113,7 +113,7 @@ void print(const PullOptions& pull, int strings, const Lengths& lengths) {
 
 /// Returns why this was no pull; empty if the strings have answered. A string at its smallest
 /// tension is pulled no more than before.
-std::string silence_of(const PullOptions& pull, const Profile& profile, const Lengths& lengths) {
+std::string why_no_pull(const PullOptions& pull, const Profile& profile, const Lengths& lengths) {
   if (pull.tension_N <= profile.drives[static_cast<size_t>(pull.string)].min_tension_N) return {};
   const StringVector change_m = lengths.change_m();
   const double least_m = selftest::smallest_answer_m(profile);
@@ -146,9 +146,9 @@ int pull(const PullOptions& options) {
     return kInterrupted;
   }
   print(options, chosen.profile.geometry.count, lengths);
-  const std::string silence = silence_of(options, chosen.profile, lengths);
-  if (!silence.empty()) std::cerr << silence << '\n';
-  return silence.empty() ? kDone : kFailed;
+  const std::string why = why_no_pull(options, chosen.profile, lengths);
+  if (!why.empty()) std::cerr << why << '\n';
+  return why.empty() ? kDone : kFailed;
 }
 
 }  // namespace
