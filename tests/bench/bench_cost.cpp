@@ -15,7 +15,6 @@
 #include "tests/bench/call_timer.h"
 #include "tests/bench/film_frames.h"
 #include "tests/bench/gst_pipeline.h"
-#include "tests/support/film_studio.h"
 
 namespace {
 
@@ -63,10 +62,8 @@ void push_paced(const std::string& filter, GstCaps* caps, const std::vector<GstB
 /// A camera that pans over a background with an object in front.
 void print(int width, int height) {
   constexpr int kPasses = 3;
-  spidar::test::FilmStudio studio(width, height, 1);
-  spidar::test::Film film = studio.pan_with_object();
   std::vector<GstBuffer*> frames;
-  for (const Picture& picture : draw_all(film, spidar::test::kFilmFrames)) {
+  for (const Picture& picture : pan_with_object(width, height)) {
     frames.push_back(i420_buffer(picture));
   }
   GstCaps* caps = gst_caps_new_simple("video/x-raw", "format", G_TYPE_STRING, "I420", "width",

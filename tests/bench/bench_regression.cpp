@@ -25,7 +25,6 @@
 #include "tests/bench/opencv_flow.h"
 #include "tests/core/tension_reference.h"
 #include "tests/support/depth_clip_score.h"
-#include "tests/support/film_studio.h"
 #include "tests/support/string_samples.h"
 #include "tests/support/tension_cases.h"
 
@@ -90,9 +89,7 @@ double thread_ms() {
 
 double cost_ratio() {
   constexpr int kPasses = 15;
-  test::FilmStudio studio(1280, 720, 1);
-  test::Film film = studio.pan_with_object();
-  const std::vector<test::Picture> frames = draw_all(film, test::kFilmFrames);
+  const std::vector<test::Picture> frames = pan_with_object(1280, 720);
   MotionAnalyzer analyzer{AnalyzerSettings()};
   const auto dis = make_dis_ultrafast();
   // Of each frame, the least of all passes: what disturbs only adds.

@@ -11,7 +11,6 @@
 #include "core/field/block_search.h"
 #include "core/motion/objects/object_tracker.h"
 #include "tests/support/ball_scene.h"
-#include "tests/support/picture.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::bouncing_ball_test {
@@ -19,7 +18,6 @@ namespace {
 
 using test::BallScene;
 using test::BallSettings;
-using test::Picture;
 
 constexpr int kFrames = 120;  // 4 s: five impacts
 constexpr int64_t kFrame_ns = 1'000'000'000 / 30;
@@ -46,14 +44,11 @@ bool impact_between(const BallScene& scene, double from_s, double to_s) {
   return std::any_of(impacts.begin(), impacts.end(), [&](double t) { return t > from_s; });
 }
 
-std::vector<Frame> analyze(const BallScene& scene,
-                           const AnalyzerSettings& settings = paper_settings()) {
-  Picture picture(scene.settings().width, scene.settings().height, 5);
+std::vector<Frame> analyze(BallScene& scene, const AnalyzerSettings& settings = paper_settings()) {
   MotionAnalyzer analyzer(settings);
   std::vector<Frame> frames;
   for (int n = 0; n < kFrames; ++n) {
-    scene.render(time_s(n), picture.pixels.data(), picture.stride);
-    frames.push_back(analyzer.analyze(picture.view(), n * kFrame_ns));
+    frames.push_back(analyzer.analyze(scene.draw(time_s(n)), n * kFrame_ns));
   }
   return frames;
 }
@@ -67,7 +62,7 @@ BallSettings ball() {
 }
 
 TEST(BouncingBall, VelocityFollowsTheAnalyticCurve) {
-  const BallScene scene(ball());
+  BallScene scene(ball());
   const std::vector<Frame> frames = analyze(scene);
   int impacts = 0;
   for (int n = 1; n < kFrames; ++n) {
@@ -86,24 +81,6 @@ TEST(BouncingBall, VelocityFollowsTheAnalyticCurve) {
   EXPECT_EQ(impacts, static_cast<int>(scene.impacts_s(time_s(kFrames - 1)).size()));
 }
 
-TEST(BouncingBall, VelocityFollowsTheAnalyticCurveInAReducedPicture) {
-  // 1280 px are reduced by 3: so is the precision.
-  BallSettings settings = ball();
-  settings.width *= 2;
-  settings.height *= 2;
-  settings.radius_px *= 2;
-  settings.start_px *= 2;
-  settings.floor_px *= 2;
-  settings.gravity_px_s2 *= 2;
-  settings.horizontal_px_s *= 2;
-  const BallScene scene(settings);
-  const std::vector<Frame> frames = analyze(scene);
-  for (int n = 1; n < kFrames; ++n) {
-    const Eigen::Vector2d error = frames[n].motion.velocity_px_s - mean_velocity(scene, n);
-    EXPECT_LT(error.norm(), 3 * kVelocity_px_s) << "frame " << n << ", error " << error.transpose();
-  }
-}
-
 TEST(BouncingBall, ThatIsSmallIsFeltAgainSoonAfterItTurned) {
   // No block fits in the picture with the impact, and in the next one it moves unlike before.
   constexpr int kLost = 2;
@@ -111,14 +88,13 @@ TEST(BouncingBall, ThatIsSmallIsFeltAgainSoonAfterItTurned) {
     BallSettings settings = ball();
     settings.radius_px = 10;
     settings.gravity_px_s2 = 800;
-    const BallScene scene(settings);
-    Picture picture(settings.width, settings.height, 5);
+    BallScene scene(settings);
     MotionAnalyzer analyzer;
     const double interval_s = 1.0 / rate_Hz;
     const int impact = static_cast<int>(std::ceil(scene.impacts_s(4).front() / interval_s));
     for (int n = 0; n <= impact + kLost; ++n) {
-      scene.render(n * interval_s, picture.pixels.data(), picture.stride);
-      const Frame& frame = analyzer.analyze(picture.view(), std::llround(1e9 * n * interval_s));
+      const Frame& frame =
+          analyzer.analyze(scene.draw(n * interval_s), std::llround(1e9 * n * interval_s));
       if (n != impact - kLost && n != impact + kLost) continue;
       const Eigen::Vector2d moved_px =
           scene.position_px(n * interval_s) - scene.position_px((n - 1) * interval_s);
@@ -151,7 +127,7 @@ TEST(BouncingBall, IsTheSameOnlyIfItIsKnownWellAndNoLayer) {
 }
 
 TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
-  const BallScene scene(ball());
+  BallScene scene(ball());
   const std::vector<Frame> frames = analyze(scene);
   const double to_reference = kReferenceHeight_px / scene.settings().height;
   // As a map of vectors, F(|v|) v / |v| is nowhere steeper than at 0: 2 Fmax α / π.
@@ -166,7 +142,7 @@ TEST(BouncingBall, NonlinearForceIsEquation15OfTheAnalyticVelocity) {
 }
 
 TEST(BouncingBall, LinearForceIsEquations11To13OfTheAnalyticVelocity) {
-  const BallScene scene(ball());
+  BallScene scene(ball());
   AnalyzerSettings settings = paper_settings();
   settings.controller.law = ControlLaw::kLinear;
   const std::vector<Frame> frames = analyze(scene, settings);

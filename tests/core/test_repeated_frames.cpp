@@ -4,7 +4,7 @@
 // and 60 frames, five in six frames (as 25 in 30 are), drawn on twos and threes, with late frames;
 // in a player, which knows the next frames, and live. A picture at rest gives no force.
 #include "tests/support/felt_film.h"
-#include "tests/support/film_studio.h"
+#include "tests/support/moving_scene.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::repeated_frames_test {
@@ -13,7 +13,7 @@ namespace {
 using test::compare_felt;
 using test::feel;
 using test::FeltDifference;
-using test::FilmStudio;
+using test::MovingScene;
 using test::Picture;
 using test::ShownFrame;
 
@@ -24,30 +24,22 @@ constexpr int64_t kAhead_ns = 150'000'000;  // a queue of a few frames
 constexpr size_t kLearnt_ms = 700;
 const double kDegree_rad = M_PI / 180;
 
-/// Copies of the frames, because a film reuses its memory.
-std::vector<Picture> pictures_of(test::Film film) {
-  std::vector<Picture> pictures;
-  for (int n = 0; n < kPictures; ++n) {
-    const ImageView view = film.draw(n);
-    Picture picture(view.width, view.height);
-    for (int y = 0; y < view.height; ++y) {
-      for (int x = 0; x < view.width; ++x) picture.at(x, y) = *view.at(x, y);
-    }
-    pictures.push_back(std::move(picture));
-  }
-  return pictures;
-}
-
-/// Something that circles in front of a still background, 0.4 times a second.
+/// Something that circles in front of a still background, 0.4 times a second, and has 8 % of the
+/// picture.
 const std::vector<Picture>& circling() {
   static const std::vector<Picture> pictures = [] {
-    FilmStudio studio(480, 270, 1);
-    test::Film film = studio.still_film();
-    film.objects = {studio.object(0.08, [&](double n) {
+    constexpr int kWidth = 480, kHeight = 270;
+    MovingScene scene(kWidth, kHeight);
+    scene.add_disc(std::sqrt(0.08 * kWidth * kHeight / M_PI));
+    std::vector<Picture> drawn;
+    for (int n = 0; n < kPictures; ++n) {
       const double angle = 360 * kDegree_rad * 0.4 * n / kPicture_Hz;
-      return Eigen::Affine2d(Eigen::Translation2d(90 * std::cos(angle), 60 * std::sin(angle)));
-    })};
-    return pictures_of(std::move(film));
+      // A copy, because the scene reuses its memory.
+      const ImageView view = scene.draw({}, {{{90 * std::cos(angle), 60 * std::sin(angle)}}});
+      drawn.emplace_back(kWidth, kHeight);
+      drawn.back().pixels.assign(view.data, view.data + kWidth * kHeight);
+    }
+    return drawn;
   }();
   return pictures;
 }

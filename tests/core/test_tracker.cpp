@@ -136,49 +136,6 @@ TEST(OpenCvTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   EXPECT_GE(dropped, 8);
 }
 
-TEST(OpenCvTracker, ACutRestartsAndTheNextFrameIsFollowedAgain) {
-  MovingTexture scene(640, 360, 2, 1, 5);
-  MovingTexture other(640, 360, -3, 1, 99);
-  OpenCvTracker tracker;
-  tracker.track(scene.frame(0));
-  EXPECT_NE(tracker.track(scene.frame(1)).picture, FrameComparison::kFirst);
-  const OpenCvTracker::Result& cut = tracker.track(other.frame(2));
-  EXPECT_EQ(cut.picture, FrameComparison::kFirst);
-  EXPECT_TRUE(cut.points.empty());
-  EXPECT_GT(cut.features, 100);
-  const OpenCvTracker::Result& after = tracker.track(other.frame(3));
-  EXPECT_NE(after.picture, FrameComparison::kFirst);
-  ASSERT_GE(after.points.size(), 50u);
-  for (const FollowedPoint& point : after.points) EXPECT_NEAR(dx(point), -3, kPointTolerance_px);
-}
-
-TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
-  MovingTexture scene(640, 360, 1, 0);
-  TrackerSettings settings;
-  OpenCvTracker tracker(settings);
-  EXPECT_GT(tracker.track(scene.frame(0)).features, 100);
-  settings.min_distance_px = 1e3;  // further than any two points of the picture are apart
-  tracker.configure(settings);
-  EXPECT_EQ(tracker.track(scene.frame(1)).features, 1);
-  settings.min_distance_px = 10;
-  tracker.configure(settings);
-  const OpenCvTracker::Result& more = tracker.track(scene.frame(2));
-  EXPECT_GT(more.features, 100);
-  EXPECT_LE(more.points.size(), 1u);
-}
-
-TEST(OpenCvTracker, RefusesSettingsOutOfRange) {
-  OpenCvTracker tracker;
-  const double nan = std::nan("");
-  for (const TrackerSettings& bad :
-       {TrackerSettings{-0.1, 10}, TrackerSettings{1.1, 10}, TrackerSettings{nan, 10},
-        TrackerSettings{0.01, -1}, TrackerSettings{0.01, nan}}) {
-    EXPECT_THROW(tracker.configure(bad), std::invalid_argument);
-    EXPECT_THROW(OpenCvTracker{bad}, std::invalid_argument);
-  }
-  EXPECT_THROW(tracker.track({}), std::invalid_argument);
-}
-
 TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
   struct Size {
     int width, height;
@@ -228,16 +185,14 @@ int found_on_entering_ball(uint32_t seed) {
   settings.start_px = {-160, 180};
   settings.horizontal_px_s = 240;
   settings.floor_px = 251;
-  const BallScene scene(settings);
-  Picture picture(settings.width, settings.height);
+  BallScene scene(settings);
   OpenCvTracker tracker;
   constexpr double kFrame_s = 1.0 / 30;
   int most = 0;
   // The ball is wholly inside after 230 px, 29 frames. Points are selected every 5 frames at the
   // latest, and followed from the next on.
   for (int n = 0; n <= 29 + 6; ++n) {
-    scene.render(n * kFrame_s, picture.pixels.data(), picture.stride);
-    const OpenCvTracker::Result& frame = tracker.track(picture.view());
+    const OpenCvTracker::Result& frame = tracker.track(scene.draw(n * kFrame_s));
     if (n > 0) most = std::max(most, on_ball(frame, scene, (n - 1) * kFrame_s, n * kFrame_s));
   }
   return most;

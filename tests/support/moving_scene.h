@@ -41,12 +41,14 @@ class MovingScene {
     Skin skin;
   };
 
-  MovingScene(int width, int height, uint32_t seed = 1)
-      : picture_(width, height), seed_(seed), background_(seed, kCell_px) {}
+  /// `cell_px` is the grid of the textures. By default, structures have a dozen pixels, the size of
+  /// the tracker's windows.
+  MovingScene(int width, int height, uint32_t seed = 1, double cell_px = 8)
+      : picture_(width, height), seed_(seed), cell_px_(cell_px), background_(seed, cell_px) {}
 
   void plain_background() { plain_ = true; }
   void add_disc(double radius_px) {
-    const Texture texture(seed_ + 1 + static_cast<uint32_t>(discs_.size()), kCell_px);
+    const Texture texture(seed_ + 1 + static_cast<uint32_t>(discs_.size()), cell_px_);
     add_disc(radius_px,
              [texture](const Eigen::Vector2d& at_px) { return texture.at(at_px.x(), at_px.y()); });
   }
@@ -92,10 +94,9 @@ class MovingScene {
     }
   }
 
-  /// Structures of a dozen pixels, the size of the tracker's windows.
-  static constexpr double kCell_px = 8;
   Picture picture_;
   uint32_t seed_;
+  double cell_px_;
   Texture background_;
   std::vector<double> behind_;  ///< grey levels by rows, at …
   Placement behind_at_;
