@@ -70,14 +70,6 @@ const std::vector<MovingObject>& two() {
   return objects;
 }
 
-TEST(BoxedObject, IsTheOneInABoxOfThatName) {
-  const std::vector<PictureBox> boxes = {box("dog", kLeft, kSize), box("face", kRight, kSize)};
-  EXPECT_EQ(Watcher("box dog").update(two(), boxes), 1u);
-  EXPECT_EQ(Watcher("box face").update(two(), boxes), 2u);
-  EXPECT_EQ(Watcher("box cat").update(two(), boxes), 0u);
-  EXPECT_EQ(Watcher("box").update(two(), {boxes[1]}), 2u);
-}
-
 /// Which part of a thing a detector marks and which part of it moves are two questions.
 TEST(BoxedObject, ItsBoxMayBeAPartOfItOrItAPartOfTheBox) {
   Watcher watcher("box");

@@ -27,20 +27,6 @@ Eigen::Vector3d go(touch::ContactForce& force, const touch::MovingRelief& surfac
   return last_N;
 }
 
-TEST(ContactForce, OfAPlaneIsStiffnessTimesDepth) {
-  const touch::HeightField plane = plane_field(0);
-  for (double stiffness_N_m = 300; stiffness_N_m <= 800; stiffness_N_m += 50) {
-    touch::ContactForce force;
-    const touch::ContactSettings settings = settings_of(stiffness_N_m);
-    const Eigen::Vector3d inside_m(0.001, -0.002, -0.003);
-    go(force, {&plane}, settings, {0.001, -0.002, 0.001}, inside_m, 100);
-    // At rest: the velocity has faded by exp(−2π 60 Hz · 100 ms).
-    const Eigen::Vector3d at_rest_N = go(force, {&plane}, settings, inside_m, inside_m, 100);
-    EXPECT_NEAR(at_rest_N.z() / (stiffness_N_m * 0.003), 1, 1e-6);
-    EXPECT_NEAR(at_rest_N.head<2>().norm(), 0, 1e-6);
-  }
-}
-
 TEST(ContactForce, NeverPullsInAndIsNoneBelowTheSurfaceOnly) {
   // Pushes of 1 m/s, a surface that moves to another one every 33 ticks, now and then without a
   // pose.

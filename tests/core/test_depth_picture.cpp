@@ -209,29 +209,6 @@ TEST(DepthPicture, AWallHasNoReliefOfNoise) {
   EXPECT_NEAR(level_at(picture, 0, 0), 0.5, kRounding);
 }
 
-TEST(DepthPicture, APackedPictureIsSplit) {
-  for (const auto& [width, height] : {std::pair{64, 18}, {65, 19}}) {
-    for (const int bytes : {1, 2}) {
-      std::vector<uint8_t> memory(static_cast<size_t>(bytes * width * height));
-      for (size_t i = 0; i < memory.size(); ++i) memory[i] = static_cast<uint8_t>(i % 251);
-      const ImageView packed{memory.data(), width, height, bytes * width, {bytes, 2, false}};
-      const ImageView left = touch::picture_half(packed, touch::DepthLayout::kRight);
-      const ImageView right = touch::depth_half(packed, touch::DepthLayout::kRight);
-      EXPECT_EQ(left.width, width / 2);
-      EXPECT_EQ(right.width, width / 2);
-      EXPECT_EQ(right.height, height);
-      EXPECT_EQ(right.data, packed.at(width - width / 2, 0));
-      const ImageView below = touch::depth_half(packed, touch::DepthLayout::kBelow);
-      EXPECT_EQ(touch::picture_half(packed, touch::DepthLayout::kBelow).height, height / 2);
-      EXPECT_EQ(below.height, height / 2);
-      EXPECT_EQ(below.data, packed.at(0, height - height / 2));
-      EXPECT_EQ(below.sample.bytes, bytes);
-    }
-  }
-  const uint8_t one = 7;
-  EXPECT_EQ(touch::depth_half({&one, 1, 1, 1}, touch::DepthLayout::kRight).data, nullptr);
-}
-
 TEST(DepthPicture, RubbishIsReadWithoutHarm) {
   std::mt19937 random(11);
   touch::DepthPicture picture;

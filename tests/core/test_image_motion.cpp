@@ -10,21 +10,6 @@ FollowedPoint moved(float dx, float dy, float x = 100, float y = 50) {
   return {0, {x, y}, {x + dx, y + dy}};
 }
 
-TEST(MeanMotion, IsTheMeanOverAllTracks) {
-  // Whole pixels in a quarter of a second: all is exact in binary but the 1e-9 of a nanosecond.
-  const std::vector<FollowedPoint> points{moved(8, 0), moved(0, 2), moved(-2, 4), moved(2, -2)};
-  const ImageMotion motion = mean_motion(points, 250'000'000);
-  EXPECT_NEAR(motion.velocity_px_s.x(), 8.0 / 4 / 0.25, 1e-12);
-  EXPECT_NEAR(motion.velocity_px_s.y(), 4.0 / 4 / 0.25, 1e-12);
-  EXPECT_EQ(motion.tracked, 4);
-}
-
-TEST(MeanMotion, NoTracksAreNoMotion) {
-  const ImageMotion motion = mean_motion({}, 40'000'000);
-  EXPECT_EQ(motion.velocity_px_s, Eigen::Vector2d::Zero());
-  EXPECT_EQ(motion.tracked, 0);
-}
-
 TEST(MeanMotion, RefusesAnIntervalThatIsNotPositive) {
   EXPECT_THROW(mean_motion({moved(1, 0)}, 0), std::invalid_argument);
   EXPECT_THROW(mean_motion({}, -1), std::invalid_argument);
@@ -36,6 +21,17 @@ constexpr double kFastest_px_s = kWidth / kInterval_s;
 
 ImageMotion moving(double x_px_s, double y_px_s, double growth_1_s = 0, double roll_rad_s = 0) {
   return {{x_px_s, y_px_s}, growth_1_s, roll_rad_s, 10, 1.5};
+}
+
+TEST(CameraMotion, IsTheInverseOfWhatThePictureDoes) {
+  Background background;
+  background.model.kind = ModelKind::kSimilarity;
+  background.model.shift_px << 4, -2;
+  background.model.linear << 0.25, 0, 0, 0.25;
+  const ImageMotion camera = camera_motion(background, 100, 0.04);
+  EXPECT_EQ(camera.velocity_px_s, Eigen::Vector2d(-100, 50));
+  // A picture that grows by a quarter is seen by a camera that comes nearer by a fifth.
+  EXPECT_NEAR(camera.growth_1_s, -0.2 / 0.04, 1e-12);
 }
 
 TEST(MotionBounds, VisibleMotionIsUnchanged) {
@@ -73,17 +69,6 @@ TEST(MotionBounds, NanIsNoMotion) {
     EXPECT_EQ(bounded.growth_1_s, 0);
     EXPECT_EQ(bounded.roll_rad_s, 0);
   }
-}
-
-TEST(CameraMotion, IsTheInverseOfWhatThePictureDoes) {
-  Background background;
-  background.model.kind = ModelKind::kSimilarity;
-  background.model.shift_px << 4, -2;
-  background.model.linear << 0.25, 0, 0, 0.25;
-  const ImageMotion camera = camera_motion(background, 100, 0.04);
-  EXPECT_EQ(camera.velocity_px_s, Eigen::Vector2d(-100, 50));
-  // A picture that grows by a quarter is seen by a camera that comes nearer by a fifth.
-  EXPECT_NEAR(camera.growth_1_s, -0.2 / 0.04, 1e-12);
 }
 
 TEST(DeadZone, IsThreeStandardErrorsOrAPartOfTheBound) {

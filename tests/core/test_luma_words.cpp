@@ -22,21 +22,6 @@ Picture noise(int width, int height, uint32_t seed) {
   return picture;
 }
 
-TEST(LumaWords, ARowIsTheHighestEightBits) {
-  const Picture picture = noise(100, 3, 1);
-  for (const LumaSample& sample : kWordSamples) {
-    SCOPED_TRACE(test::name_of(sample));
-    const WordPicture words(picture, sample);
-    for (const int columns : {1, 15, 16, 17, 32, 63, 97}) {
-      std::vector<uint8_t> expected(static_cast<size_t>(columns));
-      std::vector<uint8_t> read(expected);
-      copy_row(picture.view(), 3, 2, columns, expected.data());
-      copy_row(words.view(), 3, 2, columns, read.data());
-      EXPECT_EQ(read, expected) << columns;
-    }
-  }
-}
-
 TEST(LumaWords, BitsAboveTheDepthAreWhite) {
   // 10 bits in a word that says 0xFFFF, and 1024, the least that is too much.
   const std::vector<uint8_t> bytes{0xFF, 0xFF, 0x00, 0x04, 0xFF, 0x03, 0x00, 0x02};

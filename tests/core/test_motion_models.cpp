@@ -73,24 +73,6 @@ TEST_P(EachModel, IsEfficient) {
   EXPECT_NEAR(mean, k, 5 * std::sqrt(2.0 * k / kRuns));
 }
 
-/// All but the camera that stands still, of which nothing is to be found.
-class EachMovingModel : public testing::TestWithParam<ModelKind> {};
-
-TEST_P(EachMovingModel, TakesWeights) {
-  const ModelKind kind = GetParam();
-  PointSource source(3);
-  const MotionModel truth = sample_model(kind);
-  auto points = source.moved(truth, 30, 0);
-  auto weights = ones(points.size());
-  for (int i = 0; i < 30; ++i) {
-    points.push_back(source.stray());
-    weights.push_back(0);
-  }
-  const auto found = fit_model(kind, points, weights);
-  ASSERT_TRUE(found);
-  EXPECT_LT((found->displacement_px({100, 50}) - truth.displacement_px({100, 50})).norm(), 1e-9);
-}
-
 std::optional<MotionModel> fit_robustly(ModelKind kind, const WeightedDisplacements& evidence) {
   return spidar::fit_robustly(kind, find_start(evidence, {}), evidence);
 }
@@ -148,11 +130,6 @@ INSTANTIATE_TEST_SUITE_P(Hierarchy, EachModel,
                                          ModelKind::kHomography),
                          name_of);
 
-INSTANTIATE_TEST_SUITE_P(Hierarchy, EachMovingModel,
-                         testing::Values(ModelKind::kTranslation, ModelKind::kSimilarity,
-                                         ModelKind::kAffine, ModelKind::kHomography),
-                         name_of);
-
 TEST(MotionModels, PointsOnALineDoNotDetermineAnAffineModel) {
   PointSource source(5);
   std::vector<Displacement> line;
@@ -177,18 +154,6 @@ TEST(MotionModels, PointsInOnePlaceDetermineAShiftOnly) {
     EXPECT_FALSE(fit_model(ModelKind::kSimilarity, points, weights)) << at_px.transpose();
     EXPECT_FALSE(fit_model(ModelKind::kAffine, points, weights)) << at_px.transpose();
   }
-}
-
-TEST(MotionModels, GrowthAndRollAreThoseOfTheSimilarity) {
-  MotionModel model;
-  model.kind = ModelKind::kSimilarity;
-  const double scale = 1.1, angle_rad = 0.2;
-  model.linear << scale * std::cos(angle_rad) - 1, -scale * std::sin(angle_rad),
-      scale * std::sin(angle_rad), scale * std::cos(angle_rad) - 1;
-  EXPECT_NEAR(model.roll_rad(), angle_rad, 1e-12);
-  // From the centre to the right, y down: clockwise is down.
-  EXPECT_GT(model.displacement_px({100, 0}).y(), 0);
-  EXPECT_NEAR(model.growth(), scale * std::cos(angle_rad) - 1, 1e-12);
 }
 
 }  // namespace

@@ -17,13 +17,6 @@ ImageMotion moving(double x_px_s, double y_px_s, double growth_1_s, double roll_
   return motion;
 }
 
-TEST(MotionRendering, VelocityIsScaledToTheReferenceFrameGrowthAndRollNeedNone) {
-  GainController controller({ControlLaw::kNonlinear, 3.0, 0.01});
-  const Wrench small = render_motion(controller, moving(30, 0, 0.1, 0.2), {}, 240);
-  const Wrench large = render_motion(controller, moving(120, 0, 0.1, 0.2), {}, 960);
-  EXPECT_LT((small.stacked() - large.stacked()).norm(), kRounding);
-}
-
 TEST(MotionRendering, TheControllerSeesOneSpeedAndTheRatiosAreKept) {
   GainController controller({ControlLaw::kLinear, 3.0, 0.01});
   const Wrench wrench = render_motion(controller, moving(30, 40, 0.5, 0.25), {}, 480);
@@ -47,21 +40,6 @@ TEST(MotionRendering, AGainOfZeroTurnsAnAxisOff) {
   EXPECT_EQ(render_motion(controller, motion, {1, 0}, 480).torque_Nm, Eigen::Vector3d(0, 0, 0));
   const Wrench twice = render_motion(controller, moving(0, 0, 100.0 / 480, 0), {2, 1}, 480);
   EXPECT_NEAR(twice.force_N.z(), 1.5, kRounding);
-}
-
-TEST(MotionRendering, NoMotionIsNoForce) {
-  GainController controller({ControlLaw::kLinear, 3.0, 0.01});
-  EXPECT_EQ(render_motion(controller, ImageMotion(), {}, 480).stacked(),
-            (Eigen::Matrix<double, 6, 1>::Zero()));
-}
-
-TEST(MotionRendering, RefusesWhatIsNotAGain) {
-  for (const double bad :
-       {-1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THROW(validate(AxisGains{bad, 1}), std::invalid_argument);
-    EXPECT_THROW(validate(AxisGains{1, bad}), std::invalid_argument);
-  }
-  EXPECT_NO_THROW(validate(AxisGains{0, 0}));
 }
 
 }  // namespace

@@ -85,25 +85,6 @@ class TwoDiscs {
   int frames_ = 0;
 };
 
-TEST(Pointer, OnOneOfTwoDiscsOfAPictureFeelsThatOne) {
-  for (const double side : {-1.0, 1.0}) {
-    TwoDiscs discs;
-    AnalyzerSettings settings;
-    settings.motion = MotionKind::kObjects;
-    settings.pointer << 0.5 + side * 125.0 / 480, 0.5;
-    MotionAnalyzer analyzer(settings);
-    Frame frame;
-    for (int n = 0; n < 6; ++n) frame = discs.next(analyzer);
-    EXPECT_EQ(frame.objects.size(), 2u);
-    // The other one is at least 250 − 15 − 40 px away: 2.9 σ, and exp(−2.9² / 2) = 0.015.
-    EXPECT_GT(side * frame.motion.velocity_px_s.x() * 0.04, 0.95 * 3);
-    EXPECT_GT(side * frame.wrench.force_N.x(), 0);
-  }
-  AnalyzerSettings bad;
-  bad.pointer.x() = std::nan("");
-  EXPECT_THROW(MotionAnalyzer{bad}, std::invalid_argument);
-}
-
 AnalyzerSettings with(MotionKind kind) {
   AnalyzerSettings settings;
   settings.motion = kind;

@@ -67,24 +67,6 @@ TEST(Relief, BlackAndWhiteAreThoseOfTheFilm) {
   }
 }
 
-TEST(Relief, HasTheOrientationOfThePicture) {
-  // Brighter to the right and to the bottom, at different rates.
-  Picture picture(640, 360);
-  picture.fill([](double x, double y) { return 0.2 * x + 0.1 * y; });
-  touch::HeightField field = empty_field();
-  touch::ReliefBuilder builder;
-  ASSERT_TRUE(builder.from_brightness(picture.view(), {0, 0.008, 5e-4}, field));
-  // A pixel is 0.06 m / 640; levels are rounded to 1/255, which the mean of 2.5² pixels and the
-  // Gaussian of 2 cells bring below 0.1/255, over two cells.
-  const double pixel_m = 0.06 / 640;
-  const double error = 0.008 * 0.1 / 255 / (2 * field.cell_x_m());
-  const touch::SurfacePoint p = field.at(0.005, -0.004);
-  EXPECT_NEAR(p.slope.x(), 0.008 * 0.2 / 255 / pixel_m, error);
-  EXPECT_NEAR(p.slope.y(), -0.008 * 0.1 / 255 / pixel_m, error);
-  const double level = (0.2 * (320 + 0.005 / pixel_m) + 0.1 * (180 + 0.004 / pixel_m)) / 255;
-  EXPECT_NEAR(p.z_m, 0.008 * level, 0.008 * 0.5 / 255);
-}
-
 TEST(Relief, IsNowhereSteeperThanTheLimit) {
   // An edge in each direction, from black to white. Unlimited, its slope would be 8 mm over the
   // Gaussian of 0.5 mm: 8 / (0.5 √(2π)) = 6.4.

@@ -65,20 +65,6 @@ TEST(RepeatedPicture, TheLargestChangeIsThatOfItsDefinition) {
   }
 }
 
-TEST(RepeatedPicture, NoiseIsTheSamePictureOnceARhythmIsKnown) {
-  RepeatedPicture repeated;
-  Picture before = moved(0, 1);
-  for (uint32_t n = 1; n < 40; ++n) {
-    const bool again = n % 2 == 1;  // on twos
-    const Picture now = moved(4.0 * (n / 2), n + 1);
-    const Kind kind = repeated.compare(before.view(), now.view());
-    if (n > 6) {
-      EXPECT_EQ(kind, again ? Kind::kAlike : Kind::kOther) << n;
-    }
-    if (kind == Kind::kOther) before = now;
-  }
-}
-
 TEST(RepeatedPicture, HardlyAnyNoiseIsTheSamePictureAtOnce) {
   RepeatedPicture repeated;
   Picture before = moved(0);

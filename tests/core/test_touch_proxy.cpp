@@ -17,15 +17,6 @@ void go(touch::Proxy& proxy, const touch::MovingRelief& surface, double friction
   }
 }
 
-TEST(TouchProxy, IsTheGripWhereItDoesNotTouch) {
-  const touch::HeightField plane = plane_field(0);
-  touch::Proxy proxy;
-  go(proxy, {&plane}, 0, {0, 0, 0.01}, {0.003, 0.002, 0.001}, 20);
-  EXPECT_FALSE(proxy.touching());
-  // Rounding of a centimetre.
-  EXPECT_LT((proxy.position_m() - Eigen::Vector3d(0.003, 0.002, 0.001)).norm(), 1e-15);
-}
-
 TEST(TouchProxy, IsTheNearestPointOfASphere) {
   constexpr double kRadius_m = 0.02;
   const touch::HeightField sphere = sphere_field(0, 0, kRadius_m, 0);
@@ -131,31 +122,6 @@ TEST(TouchProxy, AGripThatIsNotANumberTouchesNothing) {
   ASSERT_TRUE(proxy.touching());
   proxy.move({&plane}, 0, {0, std::numeric_limits<double>::quiet_NaN(), 0}, kTick_s);
   EXPECT_FALSE(proxy.touching());
-}
-
-/// Largest difference from the moving sphere itself, half-way between two frames.
-double error_half_way_m(const Eigen::Vector2d& displacement_m) {
-  constexpr double kMoved_m = 0.004;
-  const touch::HeightField before = sphere_field(-kMoved_m / 2, 0, 0.008, 0);
-  const touch::HeightField after = sphere_field(kMoved_m / 2, 0, 0.008, 0);
-  const touch::HeightField truth = sphere_field(0, 0, 0.008, 0);
-  const touch::MovingRelief moving{&before, &after, 0.5, displacement_m};
-  double worst_m = 0;
-  for (double x_m = -0.015; x_m <= 0.015; x_m += 0.0003) {
-    for (double y_m = -0.012; y_m <= 0.012; y_m += 0.0003) {
-      worst_m = std::max(worst_m, std::abs(moving.at({x_m, y_m}).z_m - truth.at(x_m, y_m).z_m));
-    }
-  }
-  return worst_m;
-}
-
-TEST(MovingRelief, WithItsDisplacementLeavesNoGhost) {
-  // 2 mm are 8.53 cells: the two spheres are sampled at other positions than the one between them.
-  // A spline takes cell²/6 · d²z/dx² off a surface; the kink at the foot of the sphere, a change of
-  // slope of 1.36, is off by at most 1.36 · cell / 4 wherever it lies between samples.
-  const double cell_m = kPictureWidth_m / touch::HeightField::kColumns;
-  EXPECT_LT(error_half_way_m({0.004, 0}), 1.36 * cell_m / 4);
-  EXPECT_GT(error_half_way_m({0, 0}), 5e-4) << "cross-fading does";
 }
 
 }  // namespace

@@ -53,17 +53,6 @@ TEST(TrackReader, IsExactAtSamplesAndLinearBetweenThemAlsoAcrossBlocks) {
   }
 }
 
-TEST(TrackReader, TakesSlowAndFastTracks) {
-  for (const int64_t period_ns : {5 * kMs, kMs / 8, kMs * 10}) {
-    Reader reader;
-    reader.blocks = {block_of(0, 40, period_ns)};
-    for (int64_t time_ns = 0; time_ns < 39 * period_ns; time_ns += kMs / 2) {
-      EXPECT_NEAR(reader.percent(time_ns),
-                  static_cast<double>(time_ns) / static_cast<double>(period_ns), kFloat);
-    }
-  }
-}
-
 TEST(TrackReader, HoldsTheLastSampleForFiveMillisecondsOnly) {
   Reader reader;
   reader.blocks = {block_of(0, 40, kMs)};

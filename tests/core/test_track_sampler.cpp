@@ -7,8 +7,6 @@
 namespace spidar::test::track_sampler_test {
 namespace {
 
-constexpr int64_t kLookAhead_ns = 100'000'000;
-
 Wrench wrench_of(double k) {
   return {{std::sin(k), 2 * std::cos(3 * k), 0.3 * k}, {0.01 * k, 0.1 * std::sin(2 * k), -0.02}};
 }
@@ -49,53 +47,6 @@ TEST(TrackSampler, TakesTheCurveThatIsFeltWhenAllFramesAreKnown) {
     }
     EXPECT_GT(time_ns, 16 * interval_ns);
   }
-}
-
-TEST(TrackSampler, BeginsAtTheNextWholeMillisecond) {
-  TrackSampler sampler;
-  sampler.begin(0);
-  EXPECT_EQ(sampler.next_ns(), 0);
-  sampler.begin(7'000'001);
-  EXPECT_EQ(sampler.next_ns(), 8'000'000);
-}
-
-TEST(TrackSampler, DoesNotWaitForAFrameThatIsFarAway) {
-  TrackSampler sampler;
-  sampler.begin(0);
-  sampler.add({0, 0, wrench_of(1)});
-  EXPECT_LT(sampler.settled_ns(kLookAhead_ns), 0);
-  sampler.add({40'000'000, 0, wrench_of(2)});
-  EXPECT_EQ(sampler.settled_ns(kLookAhead_ns), 0);
-  sampler.add({500'000'000, 0, wrench_of(3)});
-  EXPECT_EQ(sampler.settled_ns(kLookAhead_ns), 400'000'000);
-}
-
-TEST(TrackSampler, RampsToRestWhereNoFrameFollows) {
-  TrackSampler sampler;
-  sampler.begin(0);
-  const Wrench last = wrench_of(1);
-  const int64_t hold_ns = WrenchTimeline::hold_after(40'000'000);
-  sampler.add({0, hold_ns, last});
-  const double steepest_N = 1.5 * last.force_N.norm() * kTrackPeriod_ns / WrenchTimeline::kRamp_ns;
-  Eigen::Vector3d before = last.force_N;
-  for (int ms = 0; ms < 200; ++ms) {
-    const Eigen::Vector3d force = sampler.next().force_N;
-    const bool held = ms * kTrackPeriod_ns <= hold_ns;
-    const bool at_rest = ms * kTrackPeriod_ns > hold_ns + WrenchTimeline::kRamp_ns;
-    EXPECT_TRUE(!held || force == last.force_N) << ms;
-    EXPECT_TRUE(!at_rest || force.isZero(0)) << ms;
-    EXPECT_LE((force - before).norm(), steepest_N * (1 + 1e-9)) << ms;
-    before = force;
-  }
-}
-
-TEST(TrackSampler, RefusesTimesThatDoNotRise) {
-  TrackSampler sampler;
-  sampler.begin(0);
-  EXPECT_TRUE(sampler.add({40'000'000, 0, wrench_of(1)}));
-  EXPECT_FALSE(sampler.add({40'000'000, 0, wrench_of(2)}));
-  EXPECT_FALSE(sampler.add({0, 0, wrench_of(2)}));
-  EXPECT_TRUE(sampler.add({80'000'000, 0, wrench_of(2)}));
 }
 
 TEST(TrackFormat, FullScaleIsTenNewtonsAndOneNewtonMetre) {

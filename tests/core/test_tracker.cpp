@@ -136,6 +136,21 @@ TEST(OpenCvTracker, PointsThatLeaveTheFrameAreDroppedNotStill) {
   EXPECT_GE(dropped, 8);
 }
 
+TEST(OpenCvTracker, SettingsTakeEffectWithTheNextFrame) {
+  MovingTexture scene(640, 360, 1, 0);
+  TrackerSettings settings;
+  OpenCvTracker tracker(settings);
+  EXPECT_GT(tracker.track(scene.frame(0)).features, 100);
+  settings.min_distance_px = 1e3;  // further than any two points of the picture are apart
+  tracker.configure(settings);
+  EXPECT_EQ(tracker.track(scene.frame(1)).features, 1);
+  settings.min_distance_px = 10;
+  tracker.configure(settings);
+  const OpenCvTracker::Result& more = tracker.track(scene.frame(2));
+  EXPECT_GT(more.features, 100);
+  EXPECT_LE(more.points.size(), 1u);
+}
+
 TEST(OpenCvTracker, WorksFromTheSmallestFrameToTheLargest) {
   struct Size {
     int width, height;
