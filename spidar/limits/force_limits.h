@@ -26,15 +26,15 @@ class ForceLimits {
         now_(set_),
         before_(set_) {}
 
-  /// Applies from the next fall() or restart() on. Any thread, one caller at a time.
+  /// Applies from the next tick on. Any thread, one caller at a time.
   void set(const SafetyLimits& limits) noexcept { shared_.store(limits); }
 
   // --- loop thread
 
   /// Begins a tick, `dt_s` after the last answered one, whose wrenches were `commanded` and
   /// `delivered`. `most_N` and `most_Nm` bound the limits from now on.
-  void fall(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N,
-            double most_Nm) noexcept {
+  void begin_tick(const Wrench& commanded, const Wrench& delivered, double dt_s, double most_N,
+                  double most_Nm) noexcept {
     most_N_ = most_N;
     most_Nm_ = most_Nm;
     take();
@@ -47,7 +47,7 @@ class ForceLimits {
                                 non_negative(set_.max_slew_Nm_s * dt_s));
   }
   /// Begins a tick in which nothing pulls.
-  void restart() noexcept {
+  void begin_tick_at_rest() noexcept {
     take();
     now_ = set_;
   }

@@ -1,63 +1,57 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// The constants of GripBrake. Each comes from physics or a simulation: the random or the searched
-/// films of test_released_films.cpp, or the hands of test_released_grip.cpp. "0.59: 1.006 m/s"
-/// means that with the value 0.59, the fastest released grip in the simulation moves at 1.006 m/s.
+/// The constants of GripBrake. Each comes from physics, from the searches of `spidar-bench
+/// released`, or from the hands of test_released_grip.cpp. "0.57: a hand of 300 N/m notices it"
+/// means that with the value 0.57, such a hand would notice the brake.
 #pragma once
 
+#include <cmath>
+
+#include "spidar/grip/grip_motion.h"
 #include "spidar/limits/released_grip.h"
 
 namespace spidar::brake {
 
-// --- A grip, a hand
-constexpr double kUnheldGrip_kg = 0.1;          // recognised masses: from a third to 1.2 times this
-constexpr double kFirmHand_N_m = 200;           // a firm hand has 300 or more, a light one 100
-constexpr double kLooseHand_N_m = 100;          // a softer hold is a loose hand or none
-constexpr double kFastest_m_s = kReleased_m_s;  // a film moves a hand at 0.45 at most
-constexpr double kFastest_rad_s = 20;  // a hand turns by ±45° at 4 Hz; an unheld grip reaches 40
-constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; GripWatch's 2.1 comes 20 ms later
-constexpr double kTellingForce_N = 0.1;  // a hand's own motion hides a weaker force
-constexpr double kMinYield_m = 0.01;     // a hand moves this far without any force
-
-// --- Fading and damping
-constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it; 0.59: 1.006 m/s
+// --- Speed
+constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and half a tick of hold
+constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed, from lag and noise
+constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it
 constexpr double kFadeTo_m_s = 1.0;      // no force along the motion above: 100 g have kReleased_J
-constexpr double kNoRise_m_s = 0.55;     // 0.5: a hand of 300 N/m notices it
+constexpr double kDamping_1_s = 150;     // damping / mass: stable up to π/2 / delay, 157 for 10 ms
+constexpr double kAimed_rad = 0.5;       // after this rotation, a wrench still acts with cos = 0.88
+
+// --- Energy
 constexpr double kHeavyFrom_m_s = 0.45;  // no film of 3 N moves a hand of 300 N/m faster
 constexpr double kHeavyTo_m_s = 0.57;    // at 0.577, 300 g have kReleased_J
 constexpr double kLightWork_J = 0.012;   // 0.008: a hand of 300 N/m notices it, at 2 Hz
 constexpr double kHeavyWork_J = 0.026;   // half of kReleased_J, for lags and the return
-constexpr double kLightSwing_J = 0.016;  // stored in a hand of 300 N/m that 3 N push: 15 mJ, …
-constexpr double kHeavySwing_J = 0.03;   // … and that throw 300 g: with the reversed film, 70 mJ
-constexpr double kSpeedError_m_s = 0.1;  // from lag and noise; 0.2: a hand of 300 N/m notices it
-constexpr double kDamping_1_s = 150;     // damping / mass: stable up to π/2 / delay, 157 for 10 ms
-constexpr double kEarlier_m_s = 0.3;     // for a grip that has stored energy; 0: 1.09 m/s
-constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and half a tick of hold
 
-// --- From the whole wrench to none, and back
-constexpr double kRelease_s = 0.01;  // the time for 3 N at the slew limit, 300 N/s
-constexpr double kRest_s = 1.0;      // a released grip stops swinging, see ItsForceRestsAndReturns
-constexpr double kReturn_s = 1.0;    // slow enough that an unheld grip shows itself
-constexpr double kEases_s = 0.1;     // kRelease_s: the strings throw a grip that they balance
+// --- Place
+constexpr double kNear_m = 0.03;  // 3 N push a light hand of 100 N/m this far; 0.025: a hand that
+                                  // swings at 0.3 m/s loses three times as much
+constexpr double kFar_m = 0.04;   // no force outwards: a loose hand of 60 N/m stores kReleased_J
+constexpr double kFollows_s = 3;  // a loose hand returns sooner; its place must not follow it
 
-// --- A grip that moves as the strings alone would move it
-constexpr double kMemory_s = 0.05;           // a hand of 100 N/m takes 30 ms to stop a grip
-constexpr double kSlowest_m_s = 0.55;        // no film moves a hand of 300 N/m this fast, …
-constexpr double kSlowestAtRest_m_s = 0.15;  // … and none at all while there is no force
-constexpr double kAligned = 0.8;             // cosine of the angle between both velocities, 37°
-constexpr double kMinFraction = 0.85;  // seen / computed speed: a grip that is a fifth heavier
-constexpr double kMaxFraction = 3;     // a grip that is a third as heavy
-constexpr double kSpins_s = 0.01;      // 0.015: 1.10 m/s; wrong poses turn for 5 ms, seldom 15
+// --- Rest
+constexpr double kFast_s = 0.07;   // 0.05: the force of a hand of 300 N/m rests, at 10.2 N
+constexpr double kRest_s = 1.0;    // a released grip stops swinging, see ItsForceRestsAndReturns
+constexpr double kReturn_s = 1.0;  // slow enough that an unheld grip goes to rest again
+constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; GripWatch's 2.1 comes 20 ms later
 
-// --- A grip that yields, or stores energy
-constexpr double kYieldTime_s = 0.05;  // a grip in a loose hand follows a force in this time
-constexpr double kFirmForce_N = 0.3;   // with kFirmHand_N_m, proves a hand after kWithstands_s
-constexpr double kProbes_N = 0.5;      // > kFirmForce_N, so that a hand far out can prove itself
-constexpr double kWithstands_s = 0.3;  // an unheld grip follows a force within 0.07
-constexpr double kThrown_m = 0.025;    // 0.03: 1.07 m/s; 0.02: firm hands lose 3 times as much
-constexpr double kThrown_m_s = 0.4;    // along the force; a film moves a hand at 0.45 at most
-constexpr double kStored_s = 0.2;      // until the smoothed force has reversed and the grip is back
-constexpr double kFarOut = 0.5;     // of kReleased_J stored; without: 342 mJ at 10.2 N and 58 N/m
-constexpr double kThrows_J = 0.05;  // twice what throws an unheld grip of 50 g at 1 m/s
+/// The largest damping / inertia with which a damper is stable, 1/s, if the device answers once in
+/// `interval_s`. The damped speed is extrapolated over the lag of the drives. The remaining delay
+/// is that of the loop and of the filter of the speed, d intervals T, and v[k + 1] = v[k] − c T v[k
+/// − d] is stable up to c T = 2 sin(π / (4 d + 2)).
+inline double stable_damping_1_s(double interval_s) {
+  const double late = (1e3 * kLoop_s * interval_s + GripMotion::kLag_s) / interval_s;
+  return 2 / interval_s * std::sin(M_PI / (4 * late + 2));
+}
+
+/// The damping of rotations, N m s/rad: stable for a fifth of the smallest inertia, if the device
+/// answers in one tick of three.
+inline double turn_damping(const GripBody& body) {
+  constexpr double kInertiaMargin = 5, kSlowest_s = 3e-3;
+  return stable_damping_1_s(kSlowest_s) / kInertiaMargin * body.least_kg_m2;
+}
 
 }  // namespace spidar::brake

@@ -131,10 +131,11 @@ void HapticLoop::tick(int64_t deadline_ns, int64_t now_ns) noexcept {
   const Step step{1e-9 * static_cast<double>(std::min(unanswered_ns_, kMaxStep_ns)),
                   1e-9 * static_cast<double>(unanswered_ns_)};
   if (is_open) {
-    limits_.fall(safety_.last(), exerted_, step.falls_s, grip_->traits().most_force_N(late_s_),
-                 grip_->traits().most_torque_Nm(late_s_));
+    limits_.begin_tick(safety_.last(), exerted_, step.falls_s,
+                       grip_->traits().most_force_N(late_s_),
+                       grip_->traits().most_torque_Nm(late_s_));
   } else {
-    limits_.restart();
+    limits_.begin_tick_at_rest();
   }
   find_wanted(record);
   grip_->advance(1e-9 * static_cast<double>(passed_ns));
@@ -334,7 +335,7 @@ void HapticLoop::follow(double passed_s) noexcept {
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
   brake_.update(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
-  brake_.pull(grip.delivered, grip.at_rest, passed_s);
+  brake_.pull(grip.delivered.force_N, passed_s);
 }
 
 /// The grip may not have received this command, so the next one starts from the last acknowledged.

@@ -18,8 +18,9 @@ const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
      "so that a hand has the time to withstand", &WrenchChain::rates},
     {"In effect", "the limits that are set, or that fall to these at the rates",
      "because the wrench of before may be above them", &WrenchChain::effect},
-    {"Cut", "at once, along the motion, what the brake has left, again within the limits in effect",
-     "because a force that fell at the rates would throw the grip", &WrenchChain::cut},
+    {"Brake at once",
+     "along the motion, no more than the brake has left, again within the limits in effect",
+     "because a force that fell at the rates would throw the grip", &WrenchChain::brake_at_once},
     {"Damper", "with it, the limits in effect, or what the strings exert at rest",
      "because it takes back what these have given", &WrenchChain::damper},
 }};
@@ -61,9 +62,9 @@ Wrench WrenchChain::effect(const Wrench& wrench) noexcept {
 }
 
 /// The parts of a wrench across the motion and against it may exceed the limits together.
-Wrench WrenchChain::cut(const Wrench& wrench) noexcept {
+Wrench WrenchChain::brake_at_once(const Wrench& wrench) noexcept {
   if (!brakes) return wrench;
-  const Wrench left = limit_total(grip_brake.cut(wrench, fresh), in_effect);
+  const Wrench left = limit_total(grip_brake.limit(wrench, fresh), in_effect);
   rate_limits.continue_from(left);
   return left;
 }

@@ -53,7 +53,7 @@ class WrenchChain {
   Wrench brake(const Wrench& wrench) noexcept;
   Wrench rates(const Wrench& wrench) noexcept;
   Wrench effect(const Wrench& wrench) noexcept;
-  Wrench cut(const Wrench& wrench) noexcept;
+  Wrench brake_at_once(const Wrench& wrench) noexcept;
   Wrench damper(const Wrench& wrench) noexcept;
 };
 

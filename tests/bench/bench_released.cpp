@@ -7,6 +7,8 @@
 // every machine.
 //   spidar-bench released [GRIPS] [SEED] [CASE]     100,000 grips, or those of one case
 //   spidar-bench released --prove                   what no film exceeds, see prove_released.cpp
+//   spidar-bench released --hands                   what the brake takes from hands, see
+//   held_hands.cpp
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -24,6 +26,7 @@
 #include "spidar/limits/released_turn.h"
 #include "spidar/loop/haptic_loop.h"
 #include "tests/bench/benchmarks.h"
+#include "tests/bench/held_hands.h"
 #include "tests/bench/prove_released.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/let_go_device.h"
@@ -276,6 +279,7 @@ Searched search(const Profile& profile, const Case& what, int grips, uint64_t se
 
 int spidar::bench::released(int argc, char** argv) {
   if (argc > 1 && argv[1] == std::string("--prove")) return prove_released(), 0;
+  if (argc > 1 && argv[1] == std::string("--hands")) return held_hands(), 0;
   const int grips = argc > 1 ? std::atoi(argv[1]) : 100'000;
   const uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   if (grips <= 0) throw std::invalid_argument("usage: spidar-bench released [GRIPS] [SEED] [CASE]");

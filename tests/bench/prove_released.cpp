@@ -19,7 +19,6 @@
 
 #include "spidar/limits/released_turn.h"
 #include "spidar/loop/brake_table.h"
-#include "spidar/loop/turn_damping.h"
 
 namespace spidar::bench {
 namespace {

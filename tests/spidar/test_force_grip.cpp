@@ -214,7 +214,7 @@ TEST(ForceGrip, AStickThatSwingsKeepsItsForce) {
     if (ms <= 300) continue;
     ASSERT_EQ(now.commanded.force_N, Eigen::Vector3d(1, 0.5, 0)) << ms;
   }
-  EXPECT_GT(fastest_m_s, brake::kFastest_m_s);
+  EXPECT_GT(fastest_m_s, brake::kFadeFrom_m_s);
 }
 
 }  // namespace

@@ -323,6 +323,10 @@ TEST(LostPose, AGripThatFliesOutOfTheFrameIsBraked) {
                         driver.profile.geometry.grip_m[k].cwiseAbs().maxCoeff()});
   }
   while (x_m < reach_m - 0.02) ASSERT_TRUE(move().pose_fault == PoseFault::kNone) << x_m;
+  // A hand stays there until the force outwards is not taken for one that pushes it away.
+  const double fast_m_s = std::exchange(speed_m_s, 0);
+  for (int i = 0; i < 10'000; ++i) move();
+  speed_m_s = fast_m_s;
   // The force has come when the pose is lost.
   driver.loop->schedule({0, INT64_MAX / 2, push_right(3)});
   driver.play(0);

@@ -7,6 +7,7 @@
 #include <future>
 
 #include "spidar/limits/released_grip.h"
+#include "spidar/loop/brake_table.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/test.h"
@@ -14,7 +15,8 @@
 namespace spidar::test::released_films_test {
 namespace {
 
-constexpr double kFastest_m_s = 1.0;
+// No force along the motion is left at this speed, but the extrapolated speed may be wrong.
+constexpr double kFastest_m_s = brake::kFadeTo_m_s + brake::kSpeedError_m_s;
 constexpr double kHardest_J = 0.05;  // of a blow against the frame
 constexpr int kFilm_ms = 4000;
 

@@ -25,8 +25,8 @@ TEST(ReleasedGrip, ItsForceRestsAndReturns) {
   EXPECT_FALSE(grip.snapshot().last.held);
   grip.run(0.2);
   EXPECT_LT(grip.snapshot().last.commanded.force_N.norm(), 1e-3);
-  // It swings for some seconds. brake::kRest_s and kReturn_s after it was last faster than
-  // 0.15 m/s, both 1 s, the whole force is back.
+  // It swings for some seconds, too slowly to be released again. brake::kRest_s and kReturn_s
+  // later, both 1 s, the whole force is back.
   grip.run(9.5);
   EXPECT_TRUE(grip.snapshot().last.held);
   EXPECT_EQ(grip.snapshot().last.commanded.force_N.x(), 0.02);
@@ -253,45 +253,69 @@ GripMotion spin(double turn_rad_s) {
   return spins;
 }
 
-TEST(GripBrake, ASpinOfTenMillisecondsReleases) {
-  const GripMotion spins = spin(1.1 * brake::kFastest_rad_s);
-  GripBrake brake(GripBody::inferred(0.03), 0);
-  const auto is_held_after = [&](int ticks) {
-    for (int i = 0; i < ticks; ++i) {
-      brake.update(Eigen::Vector3d::Zero(), spins, 0, 1e-3);
-      brake.apply({}, spins, 1e-3);
-    }
-    return brake.held();
-  };
-  // What counts is forgotten in twice its time.
-  const auto rest = [&] {
-    for (int i = 0; i < 20; ++i) brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-3);
-  };
-  EXPECT_TRUE(is_held_after(9));
-  rest();
-  EXPECT_TRUE(is_held_after(9));
-  brake.reset();
-  EXPECT_TRUE(is_held_after(9));
-  rest();
-  EXPECT_FALSE(is_held_after(11));
+/// The motion of a grip that has gone at `speed_m_s` for 0.1 s.
+GripMotion flight(double speed_m_s) {
+  GripMotion flies;
+  for (int i = 0; i < 100; ++i) {
+    Pose pose;
+    pose.position_m.x() = 1e-3 * speed_m_s * i;
+    flies.update(pose, i * kTick_ns);
+  }
+  return flies;
 }
 
-/// However long a grip has spun, its wrench returns kRest_s and kReturn_s after it has come to
-/// rest.
-TEST(GripBrake, ALongSpinRestsNoLongerThanAShortOne) {
-  const GripMotion spins = spin(1.1 * brake::kFastest_rad_s);
+/// In each tick, the grip seems to be at the centre, and to have this motion.
+void repeat(GripBrake& brake, const GripMotion& motion, double seconds) {
+  for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
+    brake.update(Eigen::Vector3d::Zero(), motion, 0, 1e-3);
+    brake.apply({}, motion, 1e-3);
+  }
+}
+
+TEST(GripBrake, AGripThatStaysFastRests) {
+  const GripBody body = GripBody::inferred(0.03);
+  const double spin_rad_s = brake::kFadeFrom_m_s / body.surface_m;
+  for (const GripMotion& fast : {spin(1.1 * spin_rad_s), flight(1.1 * brake::kFadeFrom_m_s)}) {
+    GripBrake brake(body, 0);
+    repeat(brake, fast, brake::kFast_s - kTick_s);
+    EXPECT_TRUE(brake.held());
+    // What counts is forgotten in twice its time.
+    repeat(brake, {}, 2 * brake::kFast_s);
+    repeat(brake, fast, brake::kFast_s - kTick_s);
+    EXPECT_TRUE(brake.held());
+    brake.reset();
+    repeat(brake, fast, brake::kFast_s - kTick_s);
+    EXPECT_TRUE(brake.held());
+    repeat(brake, fast, 2 * kTick_s);
+    EXPECT_FALSE(brake.held());
+    // However long it goes on, its wrench returns as soon afterwards.
+    repeat(brake, fast, 1);
+    constexpr double kRounding_s = 0.01;
+    repeat(brake, {}, 2 * brake::kFast_s + brake::kRest_s + brake::kReturn_s + kRounding_s);
+    EXPECT_TRUE(brake.held());
+  }
+  for (const GripMotion& slow : {spin(0.9 * spin_rad_s), flight(0.9 * brake::kFadeFrom_m_s)}) {
+    GripBrake brake(body, 0);
+    repeat(brake, slow, 1);
+    EXPECT_TRUE(brake.held());
+  }
+}
+
+/// A force outwards ends at kFar_m, one inwards or across stays; and the place follows.
+TEST(GripBrake, AForceAwayFromItsPlaceFades) {
+  const Wrench out{{1, 1, 0}, {0, 0, 0.1}}, in{{-1, 1, 0}, {0, 0, 0.1}};
   GripBrake brake(GripBody::inferred(0.03), 0);
-  const auto run = [&](const GripMotion& motion, double seconds) {
-    for (int i = 0; i < std::lround(1e3 * seconds); ++i) {
-      brake.update(Eigen::Vector3d::Zero(), motion, 0, 1e-3);
-      brake.apply({}, motion, 1e-3);
-    }
+  const auto left = [&](double way_m, const Wrench& wanted) {
+    brake.update({way_m, 0, 0}, {}, 0, 1e-6);
+    return brake.apply(wanted, {}, 1e-6).force_N;
   };
-  run(spins, 1);
-  EXPECT_FALSE(brake.held());
-  constexpr double kRounding_s = 0.1;  // and the time in which what counts is forgotten
-  run({}, brake::kRest_s + brake::kReturn_s + kRounding_s);
-  EXPECT_TRUE(brake.held());
+  EXPECT_EQ(left(0, out), out.force_N);
+  EXPECT_EQ(left(0.9 * brake::kNear_m, out), out.force_N);
+  EXPECT_NEAR(left(0.5 * (brake::kNear_m + brake::kFar_m), out).x(), 0.5, 1e-3);
+  EXPECT_NEAR(left(1.1 * brake::kFar_m, out).x(), 0, 1e-12);
+  EXPECT_EQ(left(1.1 * brake::kFar_m, in), in.force_N);
+  for (int i = 0; i < 3; ++i) brake.update({brake::kFar_m, 0, 0}, {}, 0, brake::kFollows_s);
+  EXPECT_EQ(left(brake::kFar_m, out), out.force_N);
 }
 
 /// Until drives that lag 45 ms have followed, the grip turns by 0.37, 0.74 and 1.1 rad.
@@ -307,22 +331,6 @@ TEST(GripBrake, AWrenchThatWouldComeForAnotherPoseIsWithheld) {
   EXPECT_GT(left_N(16), 0.1);
   EXPECT_LT(left_N(16), 0.9);
   EXPECT_EQ(left_N(24), 0);
-}
-
-TEST(GripBrake, ASpeedThatNoHandHasReleasesAtOnce) {
-  for (const bool is_faster : {false, true}) {
-    GripMotion motion;
-    GripBrake brake(GripBody::inferred(0.03), 0);
-    for (int i = 0; i < 100; ++i) {
-      Pose pose;
-      pose.position_m.x() = (is_faster ? 1.1e-3 : 0.9e-3) * brake::kFastest_m_s * i;
-      motion.update(pose, i * kTick_ns);
-      // No force has moved it: only the speed tells that there is no hand.
-      brake.update(pose.position_m, motion, 0, 1e-3);
-    }
-    brake.apply({}, motion, 1e-3);
-    EXPECT_EQ(brake.held(), !is_faster);
-  }
 }
 
 TEST(GripBrake, TimeWithoutAPoseDoesNotBringTheForceBack) {

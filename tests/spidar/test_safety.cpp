@@ -68,31 +68,31 @@ TEST(ForceLimits, FallFromWhatTheHandGets) {
   const Wrench commanded{{0, 1.5, 0}, {0.03, 0, 0}}, delivered{{2.5, 0, 0}, {0, 0.02, 0}};
   ForceLimits limits({}, kNoMost, kNoMost);
   limits.set(low);
-  limits.fall(commanded, delivered, kTick_s, kNoMost, kNoMost);
+  limits.begin_tick(commanded, delivered, kTick_s, kNoMost, kNoMost);
   EXPECT_NEAR(limits.in_effect().max_force_N, 2.2, 1e-12) << "from the force, not from the limit";
   EXPECT_NEAR(limits.in_effect().max_torque_Nm, 0.02, 1e-12) << "from the commanded torque";
   EXPECT_EQ(limits.as_set().max_force_N, 1);
   limits.undo();
   EXPECT_EQ(limits.in_effect().max_force_N, 3) << "the device did not receive the tick";
   limits.set({});
-  limits.fall(commanded, delivered, kTick_s, kNoMost, kNoMost);
+  limits.begin_tick(commanded, delivered, kTick_s, kNoMost, kNoMost);
   EXPECT_EQ(limits.in_effect().max_force_N, 3) << "a raised limit takes effect at once";
   limits.set(low);
-  limits.restart();
+  limits.begin_tick_at_rest();
   EXPECT_EQ(limits.in_effect().max_force_N, 1) << "nothing pulls";
-  limits.fall(commanded, 10 * delivered, kTick_s, kNoMost, kNoMost);
+  limits.begin_tick(commanded, 10 * delivered, kTick_s, kNoMost, kNoMost);
   EXPECT_EQ(limits.in_effect().max_force_N, 1) << "a force above its limit raises no limit";
   low.max_force_N = kNaN;
   limits.set(low);
-  for (int i = 0; i < 100; ++i) limits.fall({}, {}, kTick_s, kNoMost, kNoMost);
+  for (int i = 0; i < 100; ++i) limits.begin_tick({}, {}, kTick_s, kNoMost, kNoMost);
   EXPECT_EQ(limits.in_effect().max_force_N, 0);
   low.max_force_N = 100;
   low.max_torque_Nm = 1;
   ForceLimits bounded(low, 10, 0.2);
   EXPECT_EQ(bounded.in_effect().max_force_N, 10);
   EXPECT_EQ(bounded.in_effect().max_torque_Nm, 0.2);
-  bounded.fall({}, {}, kTick_s, 5, 0.1);
-  bounded.fall({}, {}, kTick_s, 5, 0.1);
+  bounded.begin_tick({}, {}, kTick_s, 5, 0.1);
+  bounded.begin_tick({}, {}, kTick_s, 5, 0.1);
   EXPECT_EQ(bounded.in_effect().max_force_N, 5);
   EXPECT_EQ(bounded.in_effect().max_torque_Nm, 0.1);
 }
@@ -105,7 +105,7 @@ TEST(ForceLimits, EndAtWhatWasSetWhateverTheStringsExertAtRest) {
   ForceLimits limits({}, kNoMost, kNoMost);
   limits.set(low);
   const Wrench at_rest{{0, 0.5, 0}, {0.02, 0, 0}};
-  for (int i = 0; i < 10; ++i) limits.fall({}, at_rest, kTick_s, kNoMost, kNoMost);
+  for (int i = 0; i < 10; ++i) limits.begin_tick({}, at_rest, kTick_s, kNoMost, kNoMost);
   EXPECT_EQ(limits.in_effect().max_force_N, 0.1);
   EXPECT_EQ(limits.in_effect().max_torque_Nm, 0.001);
 }
