@@ -3,9 +3,12 @@
 #include "spidar/devices/device_registry.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 
 #include "spidar/devices/rooms.h"
+#include "spidar/devices/sim/simulated_device.h"
+#include "spidar/link/board_parts.h"
 #include "spidar/link/emulated_transport.h"
 
 namespace spidar {
@@ -28,6 +31,33 @@ std::vector<DeviceKind> all_kinds() {
                         [](const DeviceKind& kind) { return kind.has_strings(); });
   return kinds;
 }
+
+/// The motors and encoders of a SimulatedDevice behind an emulated board. The mechanics advance
+/// when the board outputs digits.
+class SimulatedMotors final : public emulated::Motors {
+ public:
+  /// `dac` belongs to the board. Throws std::invalid_argument as SimulatedDevice does.
+  SimulatedMotors(const Profile& profile, const boards::DacScale& dac,
+                  const SimulatedMechanics& mechanics)
+      : device_(profile, SimulatedDevice::Time::kClock,
+                mechanics.model.value_or(grip_model_of(profile)), mechanics.clock),
+        dac_(dac) {
+    device_.open();
+  }
+  ~SimulatedMotors() override { device_.close(); }
+
+  void set_outputs(const std::array<int, kMaxStrings>& digits) noexcept override {
+    MotorVolts volts;
+    for (size_t i = 0; i < digits.size(); ++i) volts.volt[i] = dac_.volt(digits[i]);
+    device_.exchange(volts, reading_);
+  }
+  std::array<int32_t, kMaxStrings> counts() noexcept override { return reading_.count; }
+
+ private:
+  SimulatedDevice device_;
+  const boards::DacScale dac_;
+  DeviceReading reading_;
+};
 
 }  // namespace
 
@@ -58,16 +88,10 @@ const DeviceKind* simulated_kind(const DeviceName& name) {
 }
 
 boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
-                                 const Profile& profile,
-                                 const emulated::SimulatedMechanics& mechanics) {
-  if (!kind.emulate) {
-    throw DeviceError(name + ": the driver of " + kind.title + " has no emulated board",
-                      DeviceErrorCode::kSettings);
-  }
+                                 const Profile& profile, const SimulatedMechanics& mechanics) {
   std::shared_ptr<emulated::Motors> motors;
   if (kind.has_strings()) {
-    motors =
-        std::make_shared<emulated::SimulatedMotors>(profile, kind.traits.dac(profile), mechanics);
+    motors = std::make_shared<SimulatedMotors>(profile, kind.traits.dac(profile), mechanics);
   } else {
     motors = kind.hand ? kind.hand() : std::make_shared<emulated::Motors>();
   }

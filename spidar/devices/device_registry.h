@@ -3,10 +3,13 @@
 /// The kinds of devices that have a driver, and which of them a name means.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "spidar/devices/sim/simulated_motors.h"
+#include "spidar/devices/sim/grip_model.h"
 #include "spidar/link/board.h"
 #include "spidar/link/device_kind.h"
 #include "spidar/profiles/profile.h"
@@ -32,11 +35,16 @@ std::vector<const DeviceKind*> kinds_called(const std::string& device);
 /// Returns the kind that a name like "sim:sh4" simulates; null for other names, and for "sim".
 const DeviceKind* simulated_kind(const DeviceName& name);
 
+/// The mechanics that a simulated board drives.
+struct SimulatedMechanics {
+  std::optional<GripModel> model;  ///< none: that of the profile
+  std::function<int64_t()> clock;  ///< none: CLOCK_MONOTONIC
+};
+
 /// Returns the driver of a board with its emulation behind it, which needs neither a thread nor a
 /// guardian. Throws DeviceError when the board cannot drive the profile, and std::invalid_argument
 /// as SimulatedDevice does.
 boards::AnyBoard simulated_board(const DeviceKind& kind, const std::string& name,
-                                 const Profile& profile,
-                                 const emulated::SimulatedMechanics& mechanics = {});
+                                 const Profile& profile, const SimulatedMechanics& mechanics = {});
 
 }  // namespace spidar

@@ -59,12 +59,6 @@ TEST(ExampleBoard, IsABoard) {
   EXPECT_TRUE(bench.motors.all_zero());
 }
 
-TEST(DeviceKind, ADriverNeedsNoEmulatedBoard) {
-  DeviceKind kind = kind_of("sh4");
-  kind.emulate = nullptr;
-  EXPECT_THROW(simulated_board(kind, "sim:sh4", BoardBench("sh4").profile), DeviceError);
-}
-
 /// A wire that does not answer until it is told to.
 class HeldTransport final : public Transport {
  public:
