@@ -27,49 +27,19 @@
 #include "plugin/programs/own_plugins.h"
 #include "plugin/programs/software_gl.h"
 #include "plugin/programs/typed_property.h"
-#include "spidar/folders.h"
 #include "spidar/realtime/standard_descriptors.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/profile_choice.h"
 #include "spidar/tools/command_line.h"
 
-namespace spidar {
-namespace {
-
-void check_device(GObject* element) {
-  g_autofree gchar *device_text = nullptr, *profile_text = nullptr;
-  g_object_get(element, "device", &device_text, "profile", &profile_text, nullptr);
-  const std::string device = device_text ? device_text : "";
-  const std::string profile = profile_text ? profile_text : "";
-  try {
-    if (device != "none" && device != kAutoDevice) {
-      make_grip(device, profile_for(device, profile));
-    } else if (!profile.empty()) {
-      load_profile(profile);
-    }
-  } catch (const std::exception& error) {
-    throw tools::UsageError(error.what());
-  }
-}
-
-/// `properties` are of the form NAME=VALUE, or preset=NAME; `element` is a spidarmotion in the
-/// state NULL. Opens no device, so an unplugged one is no error. Throws UsageError, which says what
-/// is wrong and what would be right, for an unknown property, a value that the property does not
-/// accept, a name of no device, and a profile that cannot be read or does not suit the device.
-void check_properties(GstElement* element, const std::vector<std::string>& properties) {
-  for (const std::string& property : properties) set_typed(element, property);
-  check_device(G_OBJECT(element));
-}
-
-}  // namespace
-}  // namespace spidar
-
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kUsage = 2;
+using spidar::tools::kWrongUsage;
+using spidar::tools::status_after_printing;
+
 constexpr int kCannotRun = 126;
 constexpr int kNoProgram = 127;
 
@@ -125,50 +95,33 @@ bool is_property(const std::string& word) {
 
 Options parse(int argc, char** argv) {
   Options options;
-  if (argc < 2) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
-  if (std::strcmp(argv[1], "--help") == 0 || std::strcmp(argv[1], "-h") == 0) {
-    std::fputs(kHelp, stdout);
-    std::exit(spidar::tools::status_after_printing("spidar-feel", 0));
-  }
-  if (std::strcmp(argv[1], "--version") == 0) {
-    std::puts("spidar-feel " PACKAGE_VERSION);
-    std::exit(spidar::tools::status_after_printing("spidar-feel", 0));
-  }
   int at = 1;
   while (at < argc && is_property(argv[at])) options.properties.emplace_back(argv[at++]);
   const bool separated = at < argc && std::strcmp(argv[at], "--") == 0;
-  const int follow = separated ? at + 1 : at;
-  if (follow < argc && std::strcmp(argv[follow], "--follow") == 0) {
-    if (follow + 1 < argc) options.followed = argv[follow + 1];
-    const int wrong = is_property(options.followed) ? follow + 1 : follow + 2;
-    if (wrong < argc) {
-      fail(kUsage,
-           std::string("--follow takes one NAME, and properties come before it: ") + argv[wrong]);
-    }
-    return options;
+  if (separated) ++at;
+  const std::string word = at < argc ? argv[at] : "";
+  const std::string next = at + 1 < argc ? argv[at + 1] : "";
+  if (word == "--follow") {
+    options.followed = next;
+    const int wrong = is_property(next) ? at + 1 : at + 2;
+    if (wrong >= argc) return options;
+    fail(kWrongUsage,
+         std::string("--follow takes one NAME, and properties come before it: ") + argv[wrong]);
   }
-  constexpr const char* kScreen = "--screen";
-  if (follow < argc && std::strncmp(argv[follow], kScreen, std::strlen(kScreen)) == 0) {
-    const std::string what = argv[follow] + std::strlen(kScreen);
-    if (what.empty() || what[0] == '=') {
-      if (follow + 1 < argc) {
-        fail(kUsage,
-             std::string("--screen is the last word, its window follows '=', and properties "
-                         "come before it: ") +
-                 argv[follow + 1]);
-      }
-      options.looked_at = what.empty() ? "" : what.substr(1);
-      return options;
-    }
+  if (word == "--screen" || word.rfind("--screen=", 0) == 0) {
+    options.looked_at = word.substr(std::min(word.size(), std::strlen("--screen=")));
+    if (at + 1 == argc) return options;
+    fail(kWrongUsage,
+         "--screen is the last word, its window follows '=', and properties come before it: " +
+             next);
   }
   if (!options.properties.empty() && !separated) {
-    fail(kUsage, "write -- between the properties and the program: spidar-feel " +
-                     options.properties.front() + " -- FILM");
+    fail(kWrongUsage, "write -- between the properties and the program: spidar-feel " +
+                          options.properties.front() + " -- FILM");
   }
-  if (separated) ++at;
-  if (at == argc) fail(kUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
-  if (argv[at][0] == '-' && !fs::exists(argv[at])) {
-    fail(kUsage, std::string(argv[at]) + " is not an option; spidar-feel --help tells more");
+  if (at >= argc) fail(kWrongUsage, "no FILM or PROGRAM given; spidar-feel --help tells more");
+  if (word[0] == '-' && !fs::exists(word)) {
+    fail(kWrongUsage, word + " is not an option; spidar-feel --help tells more");
   }
   options.program = argv + at;
   return options;
@@ -181,22 +134,37 @@ void find_plugins() {
   if (!missing.empty()) fail(kCannotRun, missing);
 }
 
-void check(const std::vector<std::string>& properties) {
-  const auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
+spidar::Ref<GstElement> make_motion() {
+  auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
   if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
+  return element;
+}
+
+/// Fails, and says what is wrong and what would be right, for an unknown property or preset, a
+/// value that a property does not accept, a name of no device, and a profile that cannot be read or
+/// does not suit the device. Opens no device, so an unplugged one is no error.
+void check(const std::vector<std::string>& properties) {
+  const auto element = make_motion();
   try {
-    spidar::check_properties(element.get(), properties);
-  } catch (const spidar::tools::UsageError& error) {
-    fail(kUsage, error.what());
+    for (const std::string& property : properties) spidar::set_typed(element.get(), property);
+    gchar *device_text = nullptr, *profile_text = nullptr;
+    g_object_get(element.get(), "device", &device_text, "profile", &profile_text, nullptr);
+    const std::string device = spidar::taken(device_text), profile = spidar::taken(profile_text);
+    if (device != "none" && device != spidar::kAutoDevice) {
+      spidar::make_grip(device, spidar::profile_for(device, profile));
+    } else if (!profile.empty()) {
+      spidar::load_profile(profile);
+    }
+  } catch (const std::exception& error) {
+    fail(kWrongUsage, error.what());
   }
 }
 
 /// Prints NAME={VALUE,…} for each property with a choice of values, else NAME=.
 void list_properties() {
-  const auto element = spidar::sunk(gst_element_factory_make("spidarmotion", nullptr));
-  if (!element) fail(kCannotRun, "the plugin of gst-spidar cannot be loaded");
+  const auto element = make_motion();
   guint count = 0;
-  GParamSpec** const all =
+  g_autofree GParamSpec** all =
       g_object_class_list_properties(G_OBJECT_GET_CLASS(element.get()), &count);
   for (guint i = 0; i < count; ++i) {
     const GParamSpec* const property = all[i];
@@ -213,13 +181,8 @@ void list_properties() {
     if (!values.empty()) values = "{" + values + "}";
     std::printf("%s=%s\n", property->name, values.c_str());
   }
-  g_free(all);
-  gchar** const presets = gst_preset_get_preset_names(GST_PRESET(element.get()));
-  if (!presets) return;
-  gchar* const names = g_strjoinv(",", presets);
-  std::printf("preset={%s}\n", names);
-  g_free(names);
-  g_strfreev(presets);
+  g_auto(GStrv) presets = gst_preset_get_preset_names(GST_PRESET(element.get()));
+  if (presets) std::printf("preset={%s}\n", spidar::taken(g_strjoinv(",", presets)).c_str());
 }
 
 void set_environment(const std::vector<std::string>& properties) {
@@ -247,9 +210,7 @@ bool is_film(const std::string& word) {
   const bool is_folder = fs::is_directory(word, error);
   if (!is_folder && !fs::is_regular_file(word, error)) return false;
   if (word.find('/') == std::string::npos) {
-    gchar* program = g_find_program_in_path(word.c_str());
-    g_free(program);
-    if (program) return false;
+    if (!spidar::taken(g_find_program_in_path(word.c_str())).empty()) return false;
   }
   return is_folder || spidar::is_playlist(word) || access(word.c_str(), X_OK) != 0 ||
          !begins_as_program(word);
@@ -260,8 +221,8 @@ void run_films(char** films) {
   std::vector<std::string> named;
   for (char** film = films; *film; ++film) {
     if (is_property(*film)) {
-      fail(kUsage, std::string("properties come before the film: spidar-feel ") + *film + " -- " +
-                       films[0]);
+      fail(kWrongUsage, std::string("properties come before the film: spidar-feel ") + *film +
+                            " -- " + films[0]);
     }
     named.emplace_back(*film);
   }
@@ -328,10 +289,19 @@ void warn_of_nothing_felt(const Options& options) {
 int main(int argc, char** argv) {
   spidar::open_standard_descriptors();
   spidar::tools::mark_files(argc, argv, false);
-  if (argc == 2 && std::strcmp(argv[1], "--properties") == 0) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first == "--help" || first == "-h") {
+    std::fputs(kHelp, stdout);
+    return status_after_printing("spidar-feel", 0);
+  }
+  if (first == "--version") {
+    std::puts("spidar-feel " PACKAGE_VERSION);
+    return status_after_printing("spidar-feel", 0);
+  }
+  if (first == "--properties" && argc == 2) {
     find_plugins();
     list_properties();
-    return spidar::tools::status_after_printing("spidar-feel", 0);
+    return status_after_printing("spidar-feel", 0);
   }
   Options options = parse(argc, argv);
   const char* const device = spidar::follow::value_of(options.properties, "device");

@@ -48,6 +48,8 @@ bool is_same_file(const struct stat& a, const struct stat& b) {
          a.st_mtim.tv_sec == b.st_mtim.tv_sec && a.st_mtim.tv_nsec == b.st_mtim.tv_nsec;
 }
 
+/// Moves a segment so that running time is stream time, the time by which a replay reads the track.
+/// The two differ if a film does not begin at 0 (MPEG-TS, MPEG-PS, FLV).
 GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
   GstEvent* const event = GST_PAD_PROBE_INFO_EVENT(info);
   if (GST_EVENT_TYPE(event) != GST_EVENT_SEGMENT) return GST_PAD_PROBE_OK;
@@ -64,19 +66,6 @@ GstPadProbeReturn move_segment(GstPad*, GstPadProbeInfo* info, gpointer) {
   gst_event_unref(event);
   GST_PAD_PROBE_INFO_DATA(info) = moved;
   return GST_PAD_PROBE_OK;
-}
-
-/// Moves the segments that pass `pad` so that running time is stream time, the time by which a
-/// replay reads the track. The two differ if a film does not begin at 0 (MPEG-TS, MPEG-PS, FLV).
-void follow_stream_time(GstPad* pad) {
-  gst_pad_add_probe(pad, GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr, nullptr);
-}
-
-void tag(GstElement* extract, const tracks::Notes& notes) {
-  const Ref<GstPad> frames(gst_element_get_static_pad(extract, "sink"));
-  const Ref<GstPad> wrench(gst_element_get_static_pad(extract, "wrench"));
-  follow_stream_time(frames.get());
-  tracks::tag(wrench.get(), notes);
 }
 
 /// Analyses `film` as fast as it can be decoded, writes its haptic track into `track`, whose format
@@ -110,7 +99,11 @@ FilmResult record_film(const std::string& film, const PartFile& track,
   watch.begin(file.pipeline(), film);
   progress.watch(file.find("motion"));
   stored.watch(file.find("stored"));
-  tag(file.find("extract"), {fingerprint, properties.settings});
+  const Ref<GstPad> frames(gst_element_get_static_pad(file.find("extract"), "sink"));
+  const Ref<GstPad> wrench(gst_element_get_static_pad(file.find("extract"), "wrench"));
+  gst_pad_add_probe(frames.get(), GST_PAD_PROBE_TYPE_EVENT_DOWNSTREAM, move_segment, nullptr,
+                    nullptr);
+  tracks::tag(wrench.get(), {fingerprint, properties.settings});
   std::string error;
   try {
     file.play_until(GST_MESSAGE_EOS);
