@@ -111,6 +111,11 @@ class Windows(screen.ScreenCase, LookedAtCase):
         self.expect_rest()
         xdotool("windowmove", cover.window, 700, 280)
         self.expect_said("is covered in part")
+        # A menu or a bubble, such as a browser's advice to press Esc, goes by itself.
+        before = self.said().count("can be seen again")
+        xdotool("set_window", "--overrideredirect", 1, cover.window)
+        self.assertTrue(comes(lambda: self.said().count("can be seen again") > before), self.said())
+        xdotool("set_window", "--overrideredirect", 0, cover.window)
         xdotool("windowunmap", film.window)
         self.expect_said("is minimised")
         self.expect_no_picture()

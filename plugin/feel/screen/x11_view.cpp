@@ -256,6 +256,30 @@ class X11View : public View {
     return true;
   }
 
+  /// Whether a window of a program lies over this one. Menus and bubbles bypass the window manager
+  /// and soon go by themselves, like a browser's advice to press Esc.
+  bool is_covered_to_stay(const XWindowAttributes& film) const {
+    const Window root = DefaultRootWindow(display_);
+    int left = 0, top = 0;
+    Window child = 0;
+    XTranslateCoordinates(display_, window_, root, 0, 0, &left, &top, &child);
+    const std::vector<Window> frames = children_of(display_, root);
+    const auto is_mine = [this](Window frame) {
+      return frame == window_ || program_window_in(display_, frame) == window_;
+    };
+    auto above = std::find_if(frames.begin(), frames.end(), is_mine);
+    if (above == frames.end()) return true;
+    return std::any_of(++above, frames.end(), [&](Window frame) {
+      XWindowAttributes over{};
+      const bool is_over = XGetWindowAttributes(display_, frame, &over) &&
+                           over.map_state == IsViewable && over.x < left + film.width &&
+                           over.y < top + film.height && left < over.x + over.width &&
+                           top < over.y + over.height;
+      return is_over && (!over.override_redirect ||
+                         is_of_program(display_, program_window_in(display_, frame)));
+    });
+  }
+
   WindowVisibility window_visibility() const {
     XWindowAttributes now{};
     if (!XGetWindowAttributes(display_, window_, &now)) return WindowVisibility::kClosed;
@@ -264,8 +288,8 @@ class X11View : public View {
     if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1))
       return WindowVisibility::kOutside;
     if (visibility_ == VisibilityFullyObscured) return WindowVisibility::kCovered;
-    return visibility_ == VisibilityPartiallyObscured ? WindowVisibility::kPart
-                                                      : WindowVisibility::kWhole;
+    const bool is_part = visibility_ == VisibilityPartiallyObscured && is_covered_to_stay(now);
+    return is_part ? WindowVisibility::kPart : WindowVisibility::kWhole;
   }
 
   /// Moves a window that has just opened into the lower right corner of the screen: a window
