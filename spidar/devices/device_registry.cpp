@@ -6,27 +6,27 @@
 #include <array>
 #include <memory>
 
-#include "spidar/devices/rooms.h"
+#include "spidar/devices/device_folders.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/link/board_parts.h"
 #include "spidar/link/emulated_transport.h"
 
 namespace spidar {
 
-// Declares the function of each device folder that returns its kinds. Meson generates rooms.h:
-// ROOM(uart) ROOM(sound) …
-#define ROOM(name) std::vector<DeviceKind> name##_kinds();
-SPIDAR_ROOMS
-#undef ROOM
+// Declares the function of each device folder that returns its kinds. Meson generates
+// device_folders.h: DEVICE_FOLDER(uart) DEVICE_FOLDER(sound) …
+#define DEVICE_FOLDER(name) std::vector<DeviceKind> name##_kinds();
+SPIDAR_DEVICE_FOLDERS
+#undef DEVICE_FOLDER
 
 namespace {
 
 std::vector<DeviceKind> all_kinds() {
   std::vector<DeviceKind> kinds;
-#define ROOM(name) \
+#define DEVICE_FOLDER(name) \
   for (DeviceKind & kind : name##_kinds()) kinds.push_back(kind);
-  SPIDAR_ROOMS
-#undef ROOM
+  SPIDAR_DEVICE_FOLDERS
+#undef DEVICE_FOLDER
   std::stable_partition(kinds.begin(), kinds.end(),
                         [](const DeviceKind& kind) { return kind.has_strings(); });
   return kinds;
