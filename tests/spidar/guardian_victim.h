@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "spidar/device.h"
+#include "tests/spidar/device_test.h"
 #include "tests/support/child_process.h"
 
 namespace spidar::test {
@@ -30,18 +31,25 @@ inline void sleep_1ms() {
   std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-/// This program, pulling.
-class Victim : public ChildProcess {
- public:
-  Victim(const std::string& spec, const std::string& profile, const char* how = "--pull")
-      : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
-};
-
 /// Waits without a limit; the test has one.
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) sleep_1ms();
 }
+
+/// This program, pulling.
+class Victim : public ChildProcess {
+ public:
+  Victim(const std::string& spec, const std::string& profile, const char* how = "--pull")
+      : ChildProcess({"/proc/self/exe", how, spec, profile}) {}
+
+  /// Waits for the condition. Throws if the player has ended before.
+  template <typename Condition>
+  void lives_until(const Condition& condition) {
+    wait_for([&] { return condition() || !lives(); });
+    if (!lives()) throw std::runtime_error("the player has ended");
+  }
+};
 
 /// Exchanges until the condition holds. Opens the device again when it is lost: on a busy machine,
 /// the guardian may have found that this process stood still.

@@ -68,32 +68,20 @@ template <typename Opened, typename Exchange>
   }
 }
 
-TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsKilled) {
-  for (const std::string& board : string_boards_on_usb()) {
-    for (const int signal : {SIGKILL, SIGTERM, SIGABRT}) {
-      UsbPort& port = plug(0, board);
-      Victim victim(kind_of(board).device, kUsbProfile);
-      wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
-      ASSERT_TRUE(victim.lives());
-      victim.end(signal);
+TEST(Guardian, ZeroesEachUsbDeviceWhenTheHostIsKilledOrStopped) {
+  for (const DeviceKind& kind : devices()) {
+    if (kind.usb.vendor == 0) continue;
+    for (const int signal : {SIGKILL, SIGTERM, SIGABRT, SIGSTOP}) {
+      UsbPort& port = plug(0, kind.board);
+      port.memory.loaded = true;  // a Falcon's firmware
+      port.inputs = 0x70;         // a Falcon is homed
+      Victim victim(kind.device, kUsbProfile);
+      victim.lives_until([&] { return !port.at_rest(); });
+      victim.send(signal);
       wait_for([&] { return port.at_rest(); });
+      victim.end(SIGKILL);
       clear_bus();
     }
-  }
-}
-
-TEST(Guardian, ZeroesAFalconWhenTheHostIsKilledOrStopped) {
-  for (const int signal : {SIGKILL, SIGSTOP}) {
-    UsbPort& port = plug(0, "falcon");
-    port.memory.loaded = true;
-    port.inputs = 0x70;  // homed
-    Victim victim("falcon", kUsbProfile);
-    wait_for([&] { return !port.at_rest() || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
-    victim.send(signal);
-    wait_for([&] { return port.at_rest(); });
-    victim.end(SIGKILL);
-    clear_bus();
   }
 }
 
@@ -103,8 +91,7 @@ TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsStopped) {
     Victim victim(kind_of(board).device, kUsbProfile);
     for (int times = 0; times < 3; ++times) {
       // A host that goes on has lost its board, and gets it and a new guardian by opening it again.
-      wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
-      ASSERT_TRUE(victim.lives());
+      victim.lives_until([&] { return port.digit[7] != 0; });
       victim.send(SIGSTOP);
       wait_for([&] { return port.at_rest(); });
       victim.send(SIGCONT);
@@ -118,8 +105,7 @@ TEST(Guardian, ZeroesUsbBoardsWhenTheHostIsStopped) {
 TEST(Guardian, ZeroesUsbBoardsWhoseFilesAForkedChildHasToo) {
   UsbPort& port = plug(0, "sh4");
   Victim victim("usb", kUsbProfile, "--pull-and-fork");
-  wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
-  ASSERT_TRUE(victim.lives());
+  victim.lives_until([&] { return port.digit[7] != 0; });
   victim.end(SIGKILL);
   wait_for([&] { return port.at_rest(); });
   plug(0, "sh4");  // the child goes
@@ -150,8 +136,7 @@ void joysticks_go_to_zero(const char* driver) {
   const int spring = port.autocentre;
   for (const int signal : {SIGKILL, SIGTERM, SIGSTOP}) {
     Victim victim("ff", "spidar-g6x3-v2-r");
-    wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
+    victim.lives_until([&] { return !evdev_levels(0).at_rest(); });
     EXPECT_EQ(port.autocentre, 0);
     if (signal == SIGSTOP) {
       victim.send(signal);
@@ -165,8 +150,7 @@ void joysticks_go_to_zero(const char* driver) {
       // Gain and autocentre of the second opening. On a busy machine, a last effect of the first
       // one may come before it.
       wait_for([&] { return port.settings >= settings + 2 || !victim.lives(); });
-      wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
-      ASSERT_TRUE(victim.lives());
+      victim.lives_until([&] { return !evdev_levels(0).at_rest(); });
       victim.end(SIGKILL);
     } else {
       victim.end(signal);
@@ -190,8 +174,7 @@ TEST(Guardian, ChangesNoSettingOfAJoystickThatNeverPulled) {
   port.autocentre = 0x4000;  // by another program
   Victim victim("ff", "spidar-g6x3-v2-r", "--read");
   wait_for([&] { return port.plays >= 2 || !victim.lives(); });
-  wait_for([&] { return port.axis[1] != 0 || !victim.lives(); });
-  ASSERT_TRUE(victim.lives());
+  victim.lives_until([&] { return port.axis[1] != 0; });
   victim.end(SIGKILL);
   // The guardian has ended, too, when nobody holds the device any more.
   wait_for([&] { return evdev_levels(0).at_rest() && !port.effect[0].used; });
@@ -231,25 +214,12 @@ TEST(Guardian, ItsEndIsNoticedWhenItIsKilledOrStopped) {
   }
 }
 
-TEST(Guardian, StopsTheMouseWhenTheHostIsKilled) {
-  UsbPort& port = plug(0, "mouse");
-  Victim victim("mouse", "spidar-g6x3-v1-r");
-  // Equal volts of all strings cancel out up to rounding: look for the reports instead.
-  wait_for([&] { return port.updates > 2 || !victim.lives(); });
-  ASSERT_TRUE(victim.lives());
-  port.digit[0] = 500;
-  victim.end(SIGKILL);
-  wait_for([&] { return port.at_rest(); });
-  clear_bus();
-}
-
 TEST(Guardian, ZeroesUartBoardsWhenTheHostIsKilledOrStopped) {
   for (const int signal : {SIGKILL, SIGSTOP}) {
     MotorBench bench;
     UartLine line({std::make_shared<RecordedMotors>(bench), {{2, {7, 1, 8, 0, 4, 0}}}});
     Victim victim("uart:" + line.path(), kUartProfile);
-    wait_for([&] { return bench.digit[7] != 0 || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
+    victim.lives_until([&] { return bench.digit[7] != 0; });
     victim.send(signal);
     wait_for([&] { return bench.all_zero(); });
   }
@@ -293,18 +263,11 @@ TEST(Guardian, IsRequiredUnlessDisabled) {
   const std::string before = std::getenv("SPIDAR_GUARDIAN");
   setenv("SPIDAR_GUARDIAN", "/nowhere/spidar-guardian", 1);
   const Profile profile = load_profile(kUsbProfile);
-  try {
-    make_device("usb", profile)->open();
-    FAIL();
-  } catch (const DeviceError& error) {
-    EXPECT_STREQ(error.what(),
-                 "usb: no guardian to zero the motors should this process be killed: "
-                 "/nowhere/spidar-guardian: No such file or directory; install spidar-guardian, or "
-                 "name it in SPIDAR_GUARDIAN");
-  }
-  boards::Settings settings;
-  settings.guardian = false;
-  EXPECT_NO_THROW(make_device("usb", profile, settings)->open());
+  EXPECT_EQ(opening(*make_device("usb", profile)),
+            "usb: no guardian to zero the motors should this process be killed: "
+            "/nowhere/spidar-guardian: No such file or directory; install spidar-guardian, or "
+            "name it in SPIDAR_GUARDIAN");
+  EXPECT_NO_THROW(make_device("usb", profile, unguarded())->open());
   setenv("SPIDAR_GUARDIAN", before.c_str(), 1);
   clear_bus();
 }

@@ -17,6 +17,7 @@
 #include "spidar/session/device_factory.h"
 #include "tests/emulated_bus/bus_state.h"
 #include "tests/spidar/guardian_victim.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
 
@@ -64,8 +65,7 @@ constexpr const char* kRunCommand = R"(while [ "$1" != -- ]; do shift; done; shi
 
 UsbPort& pulling_board(Victim& victim) {
   UsbPort& port = bus().port[0];
-  wait_for([&] { return port.digit[7] != 0 || !victim.lives(); });
-  if (!victim.lives()) throw std::runtime_error("the player has ended");
+  victim.lives_until([&] { return port.digit[7] != 0; });
   return port;
 }
 
@@ -287,7 +287,7 @@ TEST(GuardianPairs, AScopeIsUsedWhereSystemdRuns) {
   device->open();
   EXPECT_NE(guardian_process(), 0);
   const std::string options = text_of(seen);
-  EXPECT_NE(options.find("--scope --quiet --collect"), std::string::npos) << options;
+  expect_contains(options, "--scope --quiet --collect");
   EXPECT_EQ(options.find("--user") == std::string::npos, geteuid() == 0) << options;
   device->close();
   EXPECT_EQ(guardian_process(), 0);
@@ -321,7 +321,7 @@ TEST(GuardianPairs, SleepIsInhibitedWhileTheMotorsPull) {
   wait_for([&] { return device->exchange({}, reading) == LinkFault::kNone; });
   EXPECT_FALSE(is_held());
   exchange_until(*device, one_volt(), [&] { return !port.at_rest() && !text_of(held).empty(); });
-  EXPECT_NE(text_of(held).find("--what=sleep:handle-lid-switch --mode=block"), std::string::npos);
+  expect_contains(text_of(held), "--what=sleep:handle-lid-switch --mode=block");
   exchange_until(*device, {}, [&] { return port.at_rest() && !is_held(); });
   exchange_until(*device, one_volt(), is_held);
   device->close();
@@ -364,12 +364,7 @@ TEST(GuardianPairs, AServiceThatAcceptsNobodyIsGivenUp) {
   ASSERT_EQ(connect(first, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   const Variable variable("SPIDAR_GUARDIAN", path);
   plug(0, "sh4");
-  try {
-    make_device("usb", load_profile(kUsbProfile))->open();
-    ADD_FAILURE() << "opened";
-  } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
-  }
+  expect_contains(opening(*make_device("usb", load_profile(kUsbProfile))), path);
   close(first);
   close(listening);
   clear_bus();
@@ -410,8 +405,7 @@ TEST(GuardianPairs, AServiceBehindASocketCanBeTheGuardian) {
 TEST(GuardianPairs, OfAStickThatTakesNoEventEnds) {
   EvdevPort& port = plug_evdev(0, EvdevKind::kStick, "hid-generic");
   Victim victim("ff", "spidar-g6x3-v2-r");
-  wait_for([&] { return !evdev_levels(0).at_rest() || !victim.lives(); });
-  ASSERT_TRUE(victim.lives());
+  victim.lives_until([&] { return !evdev_levels(0).at_rest(); });
   const pid_t guardian = guardian_process(victim.id());
   ASSERT_NE(guardian, 0);
   const int gain = port.gain;

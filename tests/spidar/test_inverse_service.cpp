@@ -10,6 +10,7 @@
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/transports/websocket_transport.h"
+#include "tests/spidar/device_test.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/inverse_service.h"
 #include "tests/support/pushed_grip.h"
@@ -22,21 +23,12 @@ std::unique_ptr<Grip> make(const std::string& spec) {
   return make_grip(spec, load_profile(kDefaultProfile));
 }
 
-std::string open_error(Grip& grip) {
-  try {
-    grip.open();
-  } catch (const DeviceError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 /// Until the condition holds. Opens the device again when it is lost: on a busy machine, the
 /// guardian may have found that this process stood still.
 template <typename Condition>
 void exchange_until(Grip& grip, const GripCommand& command, const Condition& condition) {
   wait_for([&] {
-    if (is_lost(grip.exchange(command))) open_error(grip);
+    if (is_lost(grip.exchange(command))) opening(grip);
     return condition();
   });
 }
@@ -90,16 +82,16 @@ TEST(InverseService, AnAbsentOneIsNamedWithItsCure) {
     spec = service.spec("049D");
   }
   const auto grip = make(spec);
-  const std::string what = open_error(*grip);
+  const std::string what = opening(*grip);
   EXPECT_EQ(what.find(spec + ": no service answers at localhost:"), 0u) << what;
-  EXPECT_NE(what.find("start Haply's Inverse Service"), std::string::npos) << what;
+  expect_contains(what, "start Haply's Inverse Service");
 }
 
 /// The service is on this computer, wherever the proxy is.
 TEST(InverseService, NoProxyIsAsked) {
   InverseService service;
   setenv("http_proxy", "http://127.0.0.1:1", 1);
-  EXPECT_EQ(open_error(*make(service.spec("049D"))), "");
+  EXPECT_EQ(opening(*make(service.spec("049D"))), "");
   unsetenv("http_proxy");
 }
 
@@ -107,7 +99,7 @@ TEST(InverseService, WhatItLacksIsSaid) {
   InverseService service;
   const auto error = [&](const std::vector<inverse3::State>& devices) {
     service.plug(devices);
-    return open_error(*make(service.spec("049D")));
+    return opening(*make(service.spec("049D")));
   };
   const std::string prefix = service.spec("049D") + ": ";
   inverse3::State device = InverseService::device("049D");
@@ -123,7 +115,7 @@ TEST(InverseService, WhatItLacksIsSaid) {
                                  "the Inverse3 049D is not calibrated: put its handle into the "
                                  "inkwell until its light is steady");
   service.broken = true;
-  EXPECT_NE(error({device}).find("does not answer as it should"), std::string::npos);
+  expect_contains(error({device}), "does not answer as it should");
   service.broken = false;
   EXPECT_EQ(error({InverseService::device("049D")}), "");
 }
@@ -132,10 +124,9 @@ TEST(InverseService, WithoutItsPresetItIsNotUsed) {
   InverseService service;
   service.ignore("preset");
   const auto grip = make(service.spec("049D"));
-  EXPECT_NE(open_error(*grip).find("does not answer the beginning of a session"),
-            std::string::npos);
+  expect_contains(opening(*grip), "does not answer the beginning of a session");
   service.ignore("");
-  EXPECT_EQ(open_error(*grip), "");
+  EXPECT_EQ(opening(*grip), "");
 }
 
 TEST(InverseService, ItIsListedWhileItListens) {
@@ -161,9 +152,9 @@ TEST(InverseService, AnUnpluggedDeviceIsLostUntilItIsBack) {
   LinkFault status = LinkFault::kNone;
   wait_for([&] { return (status = grip->exchange(told(1))) == LinkFault::kGone; });
   EXPECT_EQ(grip->health().last_fault, LinkFault::kGone);
-  EXPECT_NE(open_error(*grip), "") << "the other one is not taken instead";
+  EXPECT_NE(opening(*grip), "") << "the other one is not taken instead";
   service.plug({InverseService::device("B"), InverseService::device("049D")});
-  EXPECT_EQ(open_error(*grip), "");
+  EXPECT_EQ(opening(*grip), "");
 }
 
 TEST(InverseService, ItMayEndAndComeBack) {
@@ -174,9 +165,9 @@ TEST(InverseService, ItMayEndAndComeBack) {
   exchange_until(*grip, told(1), [&] { return service->pulls(); });
   service.reset();
   wait_for([&] { return grip->exchange(told(1)) == LinkFault::kGone; });
-  EXPECT_NE(open_error(*grip), "");
+  EXPECT_NE(opening(*grip), "");
   service = std::make_unique<InverseService>(port);
-  EXPECT_EQ(open_error(*grip), "");
+  EXPECT_EQ(opening(*grip), "");
   exchange_until(*grip, told(1), [&] { return service->pulls(); });
   EXPECT_TRUE(service->pulls());
 }
@@ -234,32 +225,19 @@ TEST(InverseService, AStateOfAnotherVersionIsNoPosition) {
 }
 
 /// This service keeps a force for ever, so it is the guardian that ends it.
-TEST(InverseService, TheGuardianEndsTheForceOfAKilledPlayer) {
+TEST(InverseService, TheGuardianEndsTheForceOfAPlayerThatIsKilledOrStopped) {
   InverseService service;
-  for (int times = 0; times < 3; ++times) {
+  for (const int signal : {SIGKILL, SIGSTOP}) {
     Victim victim(service.spec("049D"), "");
-    wait_for([&] { return service.pulls() || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
-    const int64_t killed_ns = monotonic_now_ns();
-    victim.end(SIGKILL);
-    wait_for([&] { return !service.pulls(); });
-    RecordProperty("force_ended_us_" + std::to_string(times),
-                   std::to_string((service.let_go_ns - killed_ns) / 1000));
-  }
-}
-
-TEST(InverseService, TheGuardianEndsTheForceOfAStoppedPlayer) {
-  InverseService service;
-  Victim victim(service.spec("049D"), "");
-  for (int times = 0; times < 3; ++times) {
-    wait_for([&] { return service.pulls() || !victim.lives(); });
-    ASSERT_TRUE(victim.lives());
-    const int64_t stopped_ns = monotonic_now_ns();
-    victim.send(SIGSTOP);
-    wait_for([&] { return !service.pulls(); });
-    RecordProperty("force_ended_us_" + std::to_string(times),
-                   std::to_string((service.let_go_ns - stopped_ns) / 1000));
-    victim.send(SIGCONT);
+    for (int times = 0; times < 3 && (signal == SIGSTOP || times == 0); ++times) {
+      victim.lives_until([&] { return service.pulls(); });
+      const int64_t sent_ns = monotonic_now_ns();
+      victim.send(signal);
+      wait_for([&] { return !service.pulls(); });
+      RecordProperty("force_ended_us_" + std::to_string(signal) + "_" + std::to_string(times),
+                     std::to_string((service.let_go_ns - sent_ns) / 1000));
+      victim.send(SIGCONT);
+    }
   }
 }
 

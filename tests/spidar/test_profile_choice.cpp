@@ -7,6 +7,7 @@
 #include "spidar/selftest/encoder_signs.h"
 #include "spidar/session/profile_choice.h"
 #include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/shell.h"
 #include "tests/support/temporary_folder.h"
@@ -23,14 +24,12 @@ const TemporaryFolder& settings_folder() {
   return folder;
 }
 
-class ProfileChoice : public testing::Test {
+class ProfileChoice : public BusTest {
  protected:
   ProfileChoice() {
     setenv("XDG_CONFIG_HOME", settings_folder().path.c_str(), 1);
-    clear_bus();
     std::filesystem::remove(remembered_profiles_file());
   }
-  ~ProfileChoice() override { clear_bus(); }
 
   static std::string command(const std::string& arguments) {
     return "LD_PRELOAD=" EMULATED_BUS_LIBRARY " " SPIDARCTL " " + arguments;
@@ -104,13 +103,11 @@ TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
     EXPECT_EQ(outcome.status, 1) << command;
     EXPECT_NE(outcome.text.find("the motors get no force: no profile is named"), std::string::npos)
         << command << ": " << outcome.text;
-    EXPECT_NE(outcome.text.find(" spidar-g6c, "), std::string::npos) << outcome.text;
+    expect_contains(outcome.text, " spidar-g6c, ");
   }
   const CommandResult chosen = spidarctl("choose usb");
   EXPECT_EQ(chosen.status, 2);
-  EXPECT_NE(chosen.text.find("choose needs --profile NAME. Profiles that fit it: "),
-            std::string::npos)
-      << chosen.text;
+  expect_contains(chosen.text, "choose needs --profile NAME. Profiles that fit it: ");
   EXPECT_EQ(port.updates, 0u);
   for (const std::string command :
        {"info usb", "info usb --json", "monitor usb --seconds 0.11", "zero usb"}) {
@@ -119,8 +116,8 @@ TEST_F(ProfileChoice, WithoutOneABoardIsReadAndNoMotorPulls) {
     EXPECT_TRUE(port.at_rest()) << command;
   }
   EXPECT_GT(port.updates, 0u);
-  EXPECT_NE(spidarctl("info usb").text.find("\n  string     count\n"), std::string::npos);
-  EXPECT_NE(spidarctl("monitor usb --seconds 0.11").text.find("  counts\n"), std::string::npos);
+  expect_contains(spidarctl("info usb").text, "\n  string     count\n");
+  expect_contains(spidarctl("monitor usb --seconds 0.11").text, "  counts\n");
 }
 
 TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
@@ -129,12 +126,11 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
   std::string text;
   // The position of its rotary switch.
   EXPECT_EQ(choose(port, "usb:0", real, "spidar-g645", text), 0) << text;
-  EXPECT_NE(text.find("spidar-g645 is remembered for the serial number S1\n"), std::string::npos)
-      << text;
+  expect_contains(text, "spidar-g645 is remembered for the serial number S1\n");
   EXPECT_TRUE(port.at_rest());
   EXPECT_EQ(board_info("usb").profile, "spidar-g645");
   EXPECT_EQ(board_info("usb:0").profile, "spidar-g645");
-  EXPECT_NE(spidarctl("info usb").text.find("profile   spidar-g645: "), std::string::npos);
+  expect_contains(spidarctl("info usb").text, "profile   spidar-g645: ");
   // What cannot be kept is said before the grip is moved.
   for (const auto& [file, device, said] : {std::tuple("A1 =", "usb", "boards.toml:1: not TOML: "),
                                            std::tuple("", "usb:3", "one of several")}) {
@@ -143,7 +139,7 @@ TEST_F(ProfileChoice, IsConfirmedByMovingTheGripAndRemembered) {
     const std::string name = *file ? "usb:S1" : device;
     const CommandResult refused = spidarctl("choose " + name + " --profile spidar-g645");
     EXPECT_EQ(refused.status, 1);
-    EXPECT_NE(refused.text.find(said), std::string::npos) << refused.text;
+    expect_contains(refused.text, said);
   }
   unplug(1);
   // Another board is another one.
@@ -157,11 +153,9 @@ TEST_F(ProfileChoice, OneWithOtherEncodersIsRefused) {
   EXPECT_EQ(choose(port, "usb", load_profile("spidar-g6c"), "spidar-g6x3-v1-r", text), 1) << text;
   // Strings 6 and 7, which count the other way as well, leave this frame elsewhere.
   for (const int string : {0, 1})
-    EXPECT_NE(text.find("  " + std::to_string(string) + "       counts the other way\n"),
-              std::string::npos)
-        << text;
-  EXPECT_NE(text.find("profiles whose encoders count so: "), std::string::npos) << text;
-  EXPECT_NE(text.find("spidar-g6c"), std::string::npos) << text;
+    expect_contains(text, "  " + std::to_string(string) + "       counts the other way\n");
+  expect_contains(text, "profiles whose encoders count so: ");
+  expect_contains(text, "spidar-g6c");
   EXPECT_EQ(board_info("usb").profile, "");
 }
 
@@ -171,7 +165,7 @@ TEST_F(ProfileChoice, ABoardWhoseEncodersAreDeadIsNotTakenForAGoodOne) {
   for (StringDrive& drive : dead.drives) drive.metres_per_count = 0;
   std::string text;
   EXPECT_EQ(choose(port, "usb", dead, "spidar-g645", text), 1) << text;
-  EXPECT_NE(text.find("\nno encoder counted: "), std::string::npos) << text;
+  expect_contains(text, "\nno encoder counted: ");
 }
 
 /// The cable is not to blame. On a busy machine, the other one may have stood still before: then
@@ -224,8 +218,7 @@ TEST_F(ProfileChoice, WithoutSupplyNothingThatPullsSucceeds) {
     const CommandResult outcome =
         spidarctl(c.arguments + std::string(" --yes --profile spidar-g6x3-v2-r"));
     EXPECT_EQ(outcome.status, c.status) << outcome.text;
-    for (const char* part : c.says)
-      EXPECT_NE(outcome.text.find(part), std::string::npos) << outcome.text;
+    for (const char* part : c.says) expect_contains(outcome.text, part);
     EXPECT_TRUE(port.at_rest());
   }
   EXPECT_GT(port.updates, 0u);

@@ -3,7 +3,7 @@
 // spidarctl selftest on a joystick or gamepad of the emulated bus.
 #include <csignal>
 
-#include "tests/emulated_bus/bus_state.h"
+#include "tests/spidar/bus_test.h"
 #include "tests/spidar/guardian_victim.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test.h"
@@ -11,11 +11,8 @@
 namespace spidar::test::stick_settings_test {
 namespace {
 
-class StickSettings : public testing::Test {
+class StickSettings : public BusTest {
  protected:
-  StickSettings() { clear_bus(); }
-  ~StickSettings() override { clear_bus(); }
-
   /// What it prints is in log().
   std::unique_ptr<ChildProcess> selftest() const {
     return std::make_unique<ChildProcess>(
@@ -81,7 +78,7 @@ TEST_F(StickSettings, ASelftestThatStoodStillGoesOn) {
   } while (is_disturbed(log()) && (!was_suspended(log()) || port.settings >= 40));
   // This stick does not move.
   EXPECT_EQ(status, 1) << log();
-  EXPECT_NE(log().find("right    does not move"), std::string::npos) << log();
+  expect_contains(log(), "right    does not move");
   EXPECT_EQ(port.gain, 0xFFFF);
   EXPECT_EQ(port.autocentre, 0xFFFF);
 }
@@ -94,7 +91,7 @@ TEST_F(StickSettings, APadThatOnlyRumblesRumbles) {
     status = selftest()->wait();
   } while (is_disturbed(log()));
   EXPECT_EQ(status, 0) << log();
-  EXPECT_NE(log().find("strength  a pulse of 0.5 s"), std::string::npos) << log();
+  expect_contains(log(), "strength  a pulse of 0.5 s");
   EXPECT_EQ(log().find("does not move"), std::string::npos) << log();
   EXPECT_GT(port.plays, 0u);
   EXPECT_TRUE(evdev_levels(0).at_rest());
