@@ -25,6 +25,22 @@ TEST(Uart, ReportsTooFewMotors) {
                   "1 motor boards answer, with 4 motors; the profile has 8 strings");
 }
 
+TEST(EncoderCounts, AllowWhatAHandCanSinceTheLastReading) {
+  constexpr int64_t kMs = 1'000'000;
+  int64_t now_ns = 5 * kMs;
+  boards::EncoderCounts counts(16);
+  counts.open({5000}, 1);
+  EXPECT_TRUE(counts.update({5000}, now_ns));
+  EXPECT_TRUE(counts.update({5000 + 4096}, now_ns += kMs));
+  EXPECT_FALSE(counts.update({9096 + 4096}, now_ns += kMs - 1));  // 2048 within a millisecond
+  // The counters began anew: that does not pass by waiting for it.
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(counts.update({0}, now_ns += kMs));
+  EXPECT_EQ(counts.counts()[0], 9096);
+  // After a break of many milliseconds a quarter of the range, after a longer one no more.
+  EXPECT_FALSE(counts.update({9096 + 16385}, now_ns += 100 * kMs));
+  EXPECT_TRUE(counts.update({9096 + 16384}, now_ns += 7 * kMs));
+}
+
 /// Bit 11 is 2048 counts, as far as a hand gets in a millisecond.
 TEST(EncoderCounts, ComeBackFromABitThatFlipped) {
   int64_t now_ns = 0;

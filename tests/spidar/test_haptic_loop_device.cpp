@@ -34,6 +34,14 @@ void push(LoopDriver& driver) {
   driver.play(0);
 }
 
+TEST(HapticLoopDevice, OpenFailsWithoutDevice) {
+  LoopDriver driver;
+  driver.log().present = false;
+  EXPECT_THROW(driver.loop->open(), DeviceError);
+  EXPECT_EQ(driver.tick().device, DeviceState::kClosed);
+  EXPECT_TRUE(driver.log().volts.empty());
+}
+
 TEST(HapticLoopDevice, OpeningEnergisesSlowly) {
   LoopDriver driver;
   driver.loop->open();
@@ -78,6 +86,13 @@ TEST(HapticLoopDevice, ClosesAtZeroVoltsWithinATenthOfASecond) {
   // Opened again it runs again.
   driver.open();
   EXPECT_EQ(driver.tick().device, DeviceState::kRunning);
+}
+
+TEST(HapticLoopDevice, DestructorClosesDevice) {
+  LoopDriver driver;
+  driver.open();
+  driver.loop.reset();
+  EXPECT_FALSE(driver.log().is_open);
 }
 
 TEST(HapticLoopDevice, LostAndBack) {

@@ -26,6 +26,36 @@ TEST_F(SimulatedDeviceTest, SilentHostLeavesTheStringsPulling) {
   EXPECT_NEAR(after.tension_N[0], before.tension_N[0], 1e-12);
 }
 
+TEST_F(SimulatedDeviceTest, FaultsAnswerAsToldUntilTheyEnd) {
+  SimulatedDevice device(profile, kFixedStep, without_lag());
+  device.open();
+  const MotorVolts volts = volts_for(profile, StringVector::Constant(1.0));
+  DeviceReading reading;
+
+  device.set_fault(LinkFault::kWrongReply);
+  reading.count.fill(77);
+  for (int tick = 0; tick < 2; ++tick)
+    EXPECT_EQ(device.exchange(volts, reading), LinkFault::kWrongReply);
+  EXPECT_EQ(reading.count[0], 77) << "written although the reply was bad";
+  EXPECT_GT(device.felt().tension_N[0], 0.9) << "the volts arrive, only the reply is bad";
+
+  device.set_fault(LinkFault::kNone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
+  EXPECT_NE(reading.count[0], 77);
+
+  device.set_fault(LinkFault::kGone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone);
+  EXPECT_TRUE(device.felt().tension_N.isZero(0));
+  EXPECT_THROW(device.open(), DeviceError);
+  device.close();
+
+  device.set_fault(LinkFault::kNone);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kGone) << "lost until opened again";
+  device.open();
+  EXPECT_EQ(device.felt().time_ns, 0);
+  EXPECT_EQ(device.exchange(volts, reading), LinkFault::kNone);
+}
+
 TEST_F(SimulatedDeviceTest, ClosingRelaxesTheMotorsAndEverythingFeltIsKept) {
   SimulatedDevice device(profile, kFixedStep);
   FeltState felt;

@@ -58,6 +58,25 @@ TEST(WrenchCallback, IsNotAskedWhileTheLoopCloses) {
   EXPECT_TRUE(driver.loop->released());
 }
 
+TEST(WrenchCallback, OneThatThrowsIsNotCalledAgain) {
+  LoopDriver driver;
+  driver.open();
+  int calls = 0;
+  const auto throws = [&](const CallbackInput&) -> Wrench {
+    if (++calls == 3) throw std::runtime_error("division by zebra " + std::string(300, 'z'));
+    return push_right(1);
+  };
+  driver.loop->callback().set(throws, kAnyEnergy);
+  EXPECT_TRUE(driver.run(200 * kMs).commanded.force_N.isZero());
+  EXPECT_EQ(calls, 3);
+  EXPECT_EQ(driver.loop->callback().state(), State::kThrew);
+  EXPECT_EQ(std::string(driver.loop->callback().thrown()).find("division by zebra"), 0u);
+  driver.loop->callback().set([](const CallbackInput&) -> Wrench { throw 3; }, kAnyEnergy);
+  driver.tick();
+  EXPECT_EQ(driver.loop->callback().state(), State::kThrew);
+  EXPECT_STREQ(driver.loop->callback().thrown(), "");
+}
+
 TEST(WrenchCallback, OneThatIsLateAgainAndAgainIsNotCalledAgain) {
   LoopDriver driver;
   driver.open();
