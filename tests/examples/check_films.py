@@ -60,7 +60,8 @@ def check_track(play, folder):
                            f"track={track}"], text=True, capture_output=True, timeout=60)
     assert done.returncode == 0 and "warning: " not in done.stderr, done
     assert "playing ball.wav" in done.stdout, done.stdout
-    assert re.search(r"^ +[\d.]+ s +1\.22 N \[=+ +\] x \+1\.22 y \+0\.00  felt$", done.stdout, re.M), done.stdout
+    # "late" on a busy machine.
+    assert re.search(r"^ +[\d.]+ s +1\.22 N \[=+ +\] x \+1\.22 y \+0\.00  (felt|late)$", done.stdout, re.M), done.stdout
     assert "Analysis: none, because the force is that of the haptic track ball.wav." in done.stdout, done.stdout
     assert "Felt: " in done.stdout, done.stdout
     assert os.path.getsize(os.path.join(folder, "spidar-play.png")) > 0
