@@ -27,6 +27,49 @@ ff::Position swinging(int64_t now_ns, int half_ms) {
   return {static_cast<int16_t>(std::lround(ff::Position::kFull * std::sin(phase))), 0};
 }
 
+/// Steps of the readings are 20, 15 and 13 mm.
+TEST(StickPosition, MovesAtTheSpeedOfTheHand) {
+  const double reach_m = 0.059 / 2;
+  for (const auto& [update_ms, half_ms] : {std::pair{55, 250}, {25, 150}, {5, 35}}) {
+    boards::StickPosition place;
+    place.start(swinging(0, half_ms), 0);
+    double largest_m = 0, read_m = 0, largest_read_m = 0;
+    for (int64_t ms = 1; ms < 1000; ++ms) {
+      const double before_m = reach_m * place.fraction().x();
+      if (ms % update_ms == 0) {
+        // The previous reading has arrived when the next one is taken.
+        place.advance(ms * kMs);
+        EXPECT_NEAR(reach_m * place.fraction().x(), read_m, 1e-12);
+        const ff::Position position = swinging(ms * kMs, half_ms);
+        place.update(position, ms * kMs);
+        const double now_m = reach_m * position.right / ff::Position::kFull;
+        largest_read_m = std::max(largest_read_m, std::abs(now_m - read_m));
+        read_m = now_m;
+      }
+      place.advance(ms * kMs);
+      largest_m = std::max(largest_m, std::abs(reach_m * place.fraction().x() - before_m));
+    }
+    EXPECT_GT(largest_read_m, 10e-3);
+    // The fastest hand: pi / 35 ms x 29.5 mm = 2.6 m/s; a reading is rounded to 3 um.
+    const double fastest_m = reach_m * M_PI / half_ms + reach_m / ff::Position::kFull;
+    EXPECT_LE(largest_m, fastest_m);
+  }
+}
+
+TEST(StickPosition, IsReachedSoonAfterALongUpdateAndWhenExchangesAreLate) {
+  boards::StickPosition place;
+  place.start({100, 200}, 0);
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0.01, 0.02));
+  place.update({10'000, -10'000}, 3 * kSecond_ns);
+  place.advance(3 * kSecond_ns);
+  EXPECT_LT(place.fraction().x(), 1);
+  place.advance(3 * kSecond_ns + boards::StickPosition::kLongest_ns);
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(1, -1));
+  place.update({0, 0}, 4 * kSecond_ns);
+  place.advance(5 * kSecond_ns);
+  EXPECT_EQ(place.fraction(), Eigen::Vector2d(0, 0));
+}
+
 class ForceFeedbackFaults : public BusTest {
  protected:
   static std::unique_ptr<Grip> stepped() {

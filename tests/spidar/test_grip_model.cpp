@@ -37,6 +37,17 @@ class EveryProfile : public testing::TestWithParam<std::string> {};
 
 }  // namespace
 
+TEST(RotationVector, IsTheShorterWayRound) {
+  const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -3).normalized();
+  for (const double angle : {0.0, 1e-12, 1e-5, 0.5, 3.0}) {
+    const Eigen::Quaterniond q = turned(angle, axis);
+    // cos and sin of half the angle are rounded to 1e-16: the angle to a few of that.
+    EXPECT_LT((rotation_vector(q) - angle * axis).norm(), 1e-15) << angle;
+    const Eigen::Quaterniond same(-q.w(), -q.x(), -q.y(), -q.z());
+    EXPECT_LT((rotation_vector(same) - angle * axis).norm(), 1e-15) << angle;
+  }
+}
+
 // Slack strings leave a damped oscillator, ẍ + 2δẋ + ω²x = 0, swinging in translation and creeping
 // in rotation: x(t) = x0 e^(−δt)(cosh st + δ/s sinh st), s² = δ² − ω². The method is of first
 // order: within one step of motion, h·ω·x0, and ten times nearer with steps ten times shorter.

@@ -119,4 +119,21 @@ TEST_F(SimulatedDeviceTest, OtherThreadsSeeWholeStates) {
   EXPECT_EQ(torn, 0);
 }
 
+TEST_F(SimulatedDeviceTest, ClockModeTakesTheTimeThatPassedUpToFiftyMilliseconds) {
+  SimulatedDevice device(profile, SimulatedDevice::Time::kClock);
+  const auto start = std::chrono::steady_clock::now();
+  device.open();
+  DeviceReading reading;
+  for (int tick = 0; tick < 20; ++tick) device.exchange({}, reading);
+  const auto passed = std::chrono::steady_clock::now() - start;
+  const int64_t before_ns = device.felt().time_ns;
+  EXPECT_GE(before_ns, 0);
+  EXPECT_LE(before_ns, std::chrono::nanoseconds(passed).count());
+
+  // sleep_for() never returns early.
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  device.exchange({}, reading);
+  EXPECT_EQ(device.felt().time_ns - before_ns, 50'000'000);
+}
+
 }  // namespace spidar::test::simulated_faults_test
