@@ -3,46 +3,21 @@
 /// An element on the simulated device that is asked why nothing is felt.
 #pragma once
 
-#include "spidar/devices/sim/simulated_device.h"
-#include "spidar/loop/haptic_loop.h"
-#include "tests/support/element_harness.h"
-#include "tests/support/test.h"
-#include "tests/support/video_frames.h"
+#include "tests/element/simulated_element.h"
 
 namespace spidar::test {
 
 constexpr int kWidth = 320, kHeight = 240;
 constexpr int kFrame_ms = 40;
 constexpr int kFrames = 30;  // more than the second that is evaluated
-constexpr int kOpened_ms = 300;
 
 /// Grey levels of a frame: by column, row and number of the frame.
 using GreyLevels = std::function<int(int, int, int)>;
 
-class NoForceReasonTest : public testing::Test {
+class NoForceReasonTest : public SimulatedElement {
  protected:
-  void open(const std::string& properties) {
-    h = std::make_unique<ElementHarness>(properties, [this] { return time_ns; });
-    h->set_caps(make_caps("GRAY8", kWidth, kHeight));
-  }
-
-  HapticLoop& loop() { return h->state().feed.output.session()->loop(); }
-  SimulatedDevice& device() { return *h->state().feed.output.simulated(); }
-
-  void tick(int count) {
-    for (int i = 0; i < count; ++i) {
-      time_ns += kTick_ns;
-      h->tick(time_ns);
-    }
-  }
-
-  /// Starts running time, with a device that runs.
   void play() {
-    tick(kOpened_ms);
-    PlaybackClock clock;
-    clock.playing = true;
-    clock.monotonic_ns = time_ns;
-    loop().set_playback_clock(clock);
+    SimulatedElement::play();
     tick(1);
   }
 
@@ -58,16 +33,7 @@ class NoForceReasonTest : public testing::Test {
   }
   void show_picture(const GreyLevels& grey, int interval_ms = kFrame_ms) {
     const auto frame = [&](int n) {
-      GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
-      GstMapInfo map;
-      gst_buffer_map(buffer, &map, GST_MAP_WRITE);
-      for (int y = 0; y < kHeight; ++y) {
-        for (int x = 0; x < kWidth; ++x) {
-          map.data[y * kWidth + x] = static_cast<guint8>(grey(x, y, n));
-        }
-      }
-      gst_buffer_unmap(buffer, &map);
-      return buffer;
+      return make_picture(h->info(), [&](int x, int y) { return grey(x, y, n); });
     };
     show(kFrames, frame, interval_ms);
   }
@@ -81,14 +47,7 @@ class NoForceReasonTest : public testing::Test {
         interval_ms);
   }
 
-  std::string stats_field(const char* name) {
-    GstStructure* stats = nullptr;
-    g_object_get(h->element(), "stats", &stats, nullptr);
-    const char* const text = gst_structure_get_string(stats, name);
-    const std::string result = text ? text : "";
-    gst_structure_free(stats);
-    return result;
-  }
+  std::string stats_field(const char* name) { return h->stats_field(name); }
   std::string message_reason() { return h->motions().back().no_force; }
 
   /// The film's reason, and nothing of the device.
@@ -106,10 +65,6 @@ class NoForceReasonTest : public testing::Test {
     EXPECT_EQ(h->motions().back().device_no_force, reason);
     EXPECT_FALSE(stats_field("device-no-force-text").empty());
   }
-
-  int64_t time_ns = 1'000'000'000;
-  int frames = 0;
-  std::unique_ptr<ElementHarness> h;
 };
 
 }  // namespace spidar::test

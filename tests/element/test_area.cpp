@@ -37,34 +37,20 @@ class Films {
   /// The same within the picture around it.
   GstBuffer* picture(int n, const GstVideoInfo& info) {
     const ImageView inside = film(n);
-    return buffer_of(info, [&](int x, int y) {
+    return make_picture(info, [&](int x, int y) -> double {
       const int film_x = x - kFilm.x, film_y = y - kFilm.y;
       if (film_x < 0 || film_y < 0 || film_x >= kFilm.width || film_y >= kFilm.height) {
-        return static_cast<uint8_t>(around_.at(x - 7.0 * n, y));
+        return std::floor(around_.at(x - 7.0 * n, y));
       }
       return *inside.at(film_x, film_y);
     });
   }
   GstBuffer* alone(int n, const GstVideoInfo& info) {
     const ImageView inside = film(n);
-    return buffer_of(info, [&](int x, int y) { return *inside.at(x, y); });
+    return make_picture(info, [&](int x, int y) { return *inside.at(x, y); });
   }
 
  private:
-  template <typename Grey>
-  static GstBuffer* buffer_of(const GstVideoInfo& info, const Grey& grey) {
-    GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
-    GstMapInfo map;
-    gst_buffer_map(buffer, &map, GST_MAP_WRITE);
-    for (int y = 0; y < GST_VIDEO_INFO_HEIGHT(&info); ++y) {
-      for (int x = 0; x < GST_VIDEO_INFO_WIDTH(&info); ++x) {
-        map.data[y * GST_VIDEO_INFO_PLANE_STRIDE(&info, 0) + x] = grey(x, y);
-      }
-    }
-    gst_buffer_unmap(buffer, &map);
-    return buffer;
-  }
-
   MovingScene scene_{kFilm.width, kFilm.height};
   Texture around_{9, 12};
 };
@@ -82,9 +68,8 @@ Felt feel(const std::string& properties, bool is_alone, int frames = kFrames) {
   Films films;
   Felt felt;
   for (int n = 0; n < frames; ++n) {
-    h.push(is_alone ? films.alone(n, h.info()) : films.picture(n, h.info()),
-           static_cast<GstClockTime>(n) * kFrame);
-    GstBuffer* const out = gst_harness_pull(h.harness());
+    GstBuffer* const out = h.pass(is_alone ? films.alone(n, h.info()) : films.picture(n, h.info()),
+                                  static_cast<GstClockTime>(n) * kFrame);
     felt.boxes = read_object_metas(out);
     gst_buffer_unref(out);
   }

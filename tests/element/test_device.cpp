@@ -1,56 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The device while the video plays: it may fail and return, and is always brought to rest.
-#include "spidar/devices/sim/simulated_device.h"
-#include "spidar/loop/haptic_loop.h"
 #include "spidar/profiles/profile.h"
-#include "tests/support/element_harness.h"
+#include "tests/element/simulated_element.h"
 #include "tests/support/moving_scene.h"
 #include "tests/support/test.h"
-#include "tests/support/video_frames.h"
 
 namespace spidar::test::device_test {
 namespace {
 
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 
-/// An element on the simulated device, its loop ticked by hand.
-class DeviceTest : public testing::Test {
+class DeviceTest : public SimulatedElement {
  protected:
-  void open(const std::string& properties) {
-    h = std::make_unique<ElementHarness>(properties, [this] { return time_ns; });
-    h->set_caps(make_caps("GRAY8", 320, 240));
-  }
-
-  HapticLoop& loop() { return h->state().feed.output.session()->loop(); }
-  SimulatedDevice& device() { return *h->state().feed.output.simulated(); }
-
-  void tick(int count = 1) {
-    for (int i = 0; i < count; ++i) {
-      time_ns += kTick_ns;
-      h->tick(time_ns);
-    }
-  }
-
   GstFlowReturn push_next() {
     const int n = frames++;
     return h->push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * kFrame);
   }
 
-  /// Frames are shown from here on: frame n at 40 n ms of running time.
-  void play() {
-    tick(300);  // energised and located
-    PlaybackClock clock;
-    clock.playing = true;
-    clock.monotonic_ns = time_ns;
-    loop().set_playback_clock(clock);
-  }
-
   double force_N() { return loop().snapshot().last.commanded.force_N.norm(); }
-
-  int64_t time_ns = 1'000'000'000;
-  int frames = 0;
-  std::unique_ptr<ElementHarness> h;
 };
 
 TEST_F(DeviceTest, IsAtRestWhileAGapIsShown) {
@@ -158,13 +126,7 @@ TEST_F(DeviceTest, AFaultyStringIsNamedOnceAndInTheStats) {
   for (int n = 0; n < 3; ++n) EXPECT_EQ(push_next(), GST_FLOW_OK);
   ASSERT_EQ(h->warnings().size(), 1u) << "said once, not once per frame";
   EXPECT_NE(h->warnings()[0].find("String 5"), std::string::npos) << h->warnings()[0];
-
-  GstStructure* stats = nullptr;
-  g_object_get(h->element(), "stats", &stats, nullptr);
-  int faulty = -1;
-  EXPECT_TRUE(gst_structure_get_int(stats, "faulty-string", &faulty));
-  EXPECT_EQ(faulty, 5);
-  gst_structure_free(stats);
+  EXPECT_EQ(h->stats_field("faulty-string"), "5");
 }
 
 TEST_F(DeviceTest, TheGripPointsAtWhatIsFelt) {

@@ -4,43 +4,33 @@
 #include "plugin/device/device_view.h"
 #include "plugin/filter/display/motion_display.h"
 #include "plugin/filter/spidar_motion.h"
-#include "spidar/loop/haptic_loop.h"
-#include "tests/support/element_harness.h"
+#include "tests/element/simulated_element.h"
 #include "tests/support/test.h"
-#include "tests/support/video_frames.h"
 
 namespace spidar::test::device_view_test {
 namespace {
 
+using DeviceViewed = SimulatedElement;
+
 /// Between two pictures of a screen lie some sixteen ticks.
-TEST(DeviceView, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
-  int64_t time_ns = 1'000'000'000;
-  ElementHarness h("device=sim motion=mean", [&] { return time_ns; });
-  h.set_caps(make_caps("GRAY8", 320, 240));
-  HapticOutput& output = h.state().feed.output;
-  HapticLoop& loop = output.session()->loop();
-  const auto tick = [&](int count) {
-    for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);
-  };
-  tick(300);
-  PlaybackClock clock;
-  clock.playing = true;
-  clock.monotonic_ns = time_ns;
-  loop.set_playback_clock(clock);
+TEST_F(DeviceViewed, ALookSeesTheForcesOfAllTicksSinceTheLastOne) {
+  open("device=sim motion=mean");
+  HapticOutput& output = h->state().feed.output;
+  play();
   DeviceView view;
   TickRecord record;
   output.read_device(view);
-  while (loop.pop_record(record)) {
+  while (loop().pop_record(record)) {
   }
   double widest_N = 0;
   for (int n = 0; n < 30; ++n) {
-    ASSERT_EQ(h.push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * 40 * GST_MSECOND),
+    ASSERT_EQ(h->push_moved(2.0 * n, 0, static_cast<GstClockTime>(n) * 40 * GST_MSECOND),
               GST_FLOW_OK);
     tick(40);
     ASSERT_TRUE(output.read_device(view));
     ASSERT_EQ(view.ticks.size(), 40u);
     for (const ForceTick& seen : view.ticks) {
-      ASSERT_TRUE(loop.pop_record(record));
+      ASSERT_TRUE(loop().pop_record(record));
       EXPECT_EQ(seen.monotonic_ns, record.monotonic_ns);
       EXPECT_EQ(seen.wanted_N, record.wanted.force_N);
       EXPECT_EQ(seen.delivered_N, record.delivered.force_N);

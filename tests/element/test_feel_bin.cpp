@@ -294,18 +294,10 @@ class FeelBinTurns : public FeelBin, public testing::WithParamInterface<const ch
   FeelBinTurns() : FeelBin(true) {}
 
   void push_marked() {
-    GstBuffer* const buffer = make_frame(info_, 0, 0);
-    GstVideoFrame frame;
-    ASSERT_TRUE(gst_video_frame_map(&frame, &info_, buffer, GST_MAP_WRITE));
-    auto* const luma = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
-    for (int y = 0; y < info_.height; ++y) {
-      for (int x = 0; x < info_.width; ++x) {
-        const bool is_bright = 2 * x < info_.width && 2 * y < info_.height;
-        luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x] = is_bright ? 200 : 50;
-      }
-    }
-    gst_video_frame_unmap(&frame);
-    EXPECT_EQ(push(buffer), GST_FLOW_OK);
+    const auto grey = [this](int x, int y) {
+      return 2 * x < info_.width && 2 * y < info_.height ? 200 : 50;
+    };
+    EXPECT_EQ(push(make_picture(info_, grey)), GST_FLOW_OK);
   }
   /// Expects that the last frame was shown as this tag says, and that it needs no other turn.
   void expect_shown(const char* tag) {

@@ -11,9 +11,7 @@ namespace {
 
 /// Grey levels below 128 are behind the grip, which a hand holds in the middle.
 GstBuffer* level_frame(const GstVideoInfo& info, int grey) {
-  GstBuffer* const buffer = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
-  gst_buffer_memset(buffer, 0, static_cast<guint8>(grey), GST_VIDEO_INFO_SIZE(&info));
-  return buffer;
+  return make_picture(info, [grey](int, int) { return grey; });
 }
 
 // The store is empty from the beginning.

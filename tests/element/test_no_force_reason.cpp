@@ -33,6 +33,7 @@ TEST_F(NoForceReasonTest, EachOfTheFilm) {
       {"motion=mean", stays, "repeated-frames"},
       {"motion=object", is_plain, "too-few-points"},
       {"motion=mean", is_plain, "too-few-points"},
+      {"motion=mean", [&] { show_moved(1, 2); }, "nothing-to-compare"},
       {"alpha=0.0001", moves, "too-weak"},  // eq. 15: 0.01 N at 50 px/s
   };
   for (const Case& each : cases) {
@@ -155,13 +156,6 @@ TEST_F(NoForceReasonTest, TheVideoHasEnded) {
   EXPECT_EQ(stats_field("no-force-reason"), "camera-only");
   tick(1200);
   EXPECT_EQ(stats_field("no-force-reason"), "no-frames");
-}
-
-TEST_F(NoForceReasonTest, TheFirstFrameHasNothingToBeComparedWith) {
-  open("device=sim");
-  play();
-  show_moved(1, 2);
-  expect_everywhere("nothing-to-compare");
 }
 
 TEST_F(NoForceReasonTest, FramesThatComeTooLate) {

@@ -2,10 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // Frames that are turned or mirrored before they are shown: the tag image-orientation.
 #include "plugin/frame/stream_orientation.h"
-#include "spidar/loop/haptic_loop.h"
-#include "tests/support/element_harness.h"
+#include "tests/element/simulated_element.h"
 #include "tests/support/test.h"
-#include "tests/support/video_frames.h"
 
 namespace spidar::test::orientation_test {
 namespace {
@@ -104,40 +102,24 @@ TEST(Orientation, PlacesAreTurnedThereAndBack) {
   }
 }
 
-/// The force on a grip that is pressed into the middle of a frame that becomes brighter to the
-/// right and downwards, and is shown in this orientation.
-Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
-  int64_t time_ns = 1'000'000'000;
-  ElementHarness h("device=sim touch=luma touch-friction=0", [&] { return time_ns; });
-  h.set_caps(make_caps("GRAY8", width, height));
-  const auto tick = [&](int count) {
-    for (int i = 0; i < count; ++i) h.tick(time_ns += kTick_ns);
-  };
-  tick(300);  // energised and located
-  PlaybackClock clock;
-  clock.playing = true;
-  clock.monotonic_ns = time_ns;
-  h.state().feed.output.session()->loop().set_playback_clock(clock);
-  gst_harness_push_event(h.harness(),
-                         gst_event_new_tag(orientation_tags(orientation, GST_TAG_SCOPE_STREAM)));
-  GstBuffer* buffer = make_frame(h.info(), 0, 0);
-  GstVideoFrame frame;
-  EXPECT_TRUE(gst_video_frame_map(&frame, &h.info(), buffer, GST_MAP_READWRITE));
-  auto* const luma = static_cast<guint8*>(GST_VIDEO_FRAME_PLANE_DATA(&frame, 0));
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      luma[y * GST_VIDEO_FRAME_PLANE_STRIDE(&frame, 0) + x] =
-          static_cast<guint8>(16 + 100 * x / width + 100 * y / height);
-    }
+class OrientedRelief : public SimulatedElement {
+ protected:
+  /// The force on a grip that is pressed into the middle of a frame that becomes brighter to the
+  /// right and downwards, and is shown in this orientation.
+  Eigen::Vector3d contact_N_with(const char* orientation, int width, int height) {
+    open("device=sim touch=luma touch-friction=0", width, height);
+    play();
+    gst_harness_push_event(h->harness(),
+                           gst_event_new_tag(orientation_tags(orientation, GST_TAG_SCOPE_STREAM)));
+    const auto grey = [&](int x, int y) { return 16 + 100 * x / width + 100 * y / height; };
+    EXPECT_EQ(h->push(make_picture(h->info(), grey), 0), GST_FLOW_OK);
+    h->state().feed.output.lead_hand(Eigen::Vector3d(0, 0, -0.01));
+    tick(1000);
+    return h->state().feed.output.snapshot()->last.contact.force_N;
   }
-  gst_video_frame_unmap(&frame);
-  EXPECT_EQ(h.push(buffer, 0), GST_FLOW_OK);
-  h.state().feed.output.lead_hand(Eigen::Vector3d(0, 0, -0.01));
-  tick(1000);
-  return h.state().feed.output.snapshot()->last.contact.force_N;
-}
+};
 
-TEST(Orientation, ReliefIsTurnedLikeThePicture) {
+TEST_F(OrientedRelief, IsTurnedLikeThePicture) {
   for (const Turn& turn : kTurns) {
     // Where it is shown brighter, and therefore nearer.
     const Eigen::Vector2d brighter = turn.right + turn.down;

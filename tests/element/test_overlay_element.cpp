@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 // The element with its overlay: which frames it draws into, and when.
-#include "spidar/loop/haptic_loop.h"
-#include "tests/support/element_harness.h"
+#include "tests/element/simulated_element.h"
 #include "tests/support/test.h"
-#include "tests/support/video_frames.h"
 
 namespace spidar::test::overlay_element_test {
 namespace {
@@ -29,8 +27,7 @@ TEST(OverlayElement, WritesToNoFrameThatSomebodyElseHolds) {
   for (int n = 0; n < 3; ++n) {
     GstBuffer* frame = make_frame(h.info(), 3.0 * n, 0, 13);
     GstBuffer* before = gst_buffer_copy_deep(frame);
-    ASSERT_EQ(h.push(gst_buffer_ref(frame), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    GstBuffer* out = h.pass(gst_buffer_ref(frame), static_cast<GstClockTime>(n) * kFrame);
     EXPECT_NE(out, frame);
     EXPECT_EQ(differences(frame, before), 0u);
     // Nothing is known of the first one.
@@ -54,8 +51,7 @@ TEST(OverlayElement, CanBeTurnedOnAndOffWhilePlaying) {
                    nullptr);
     GstBuffer* frame = make_frame(h.info(), 2.0 * n, 0);
     GstBuffer* before = gst_buffer_copy_deep(frame);
-    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    GstBuffer* out = h.pass(frame, static_cast<GstClockTime>(n) * kFrame);
     EXPECT_EQ(differences(out, before) > 0, on) << "frame " << n;
     gst_buffer_unref(before);
     gst_buffer_unref(out);
@@ -73,8 +69,7 @@ TEST(OverlayElement, DrawsWithinTheVisiblePart) {
     crop->y = 100;
     crop->width = 300;
     crop->height = 200;
-    ASSERT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    GstBuffer* out = h.pass(frame, static_cast<GstClockTime>(n) * kFrame);
     GstMapInfo a, b;
     gst_buffer_map(out, &a, GST_MAP_READ);
     gst_buffer_map(before, &b, GST_MAP_READ);
@@ -94,18 +89,13 @@ TEST(OverlayElement, DrawsWithinTheVisiblePart) {
   }
 }
 
-TEST(OverlayElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
+using TouchedElement = SimulatedElement;
+
+TEST_F(TouchedElement, ShowsTheFingerOnlyWhileThePictureIsTouched) {
   for (const bool touching : {false, true}) {
-    int64_t time_ns = 1'000'000'000;
-    ElementHarness h(
-        touching ? "device=sim overlay=points touch=luma" : "device=sim overlay=points touch=off",
-        [&] { return time_ns; });
-    h.set_caps(make_caps("GRAY8", 320, 240));
-    for (int tick = 0; tick < 300; ++tick) h.tick(time_ns += kTick_ns);  // until the device runs
-    GstBuffer* frame = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
-    gst_buffer_memset(frame, 0, 20, 320 * 240);
-    ASSERT_EQ(h.push(frame, 0), GST_FLOW_OK);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    open(touching ? "device=sim overlay=points touch=luma" : "device=sim overlay=points touch=off");
+    tick(kOpened_ms);
+    GstBuffer* out = h->pass(make_picture(h->info(), [](int, int) { return 20; }), 0);
     GstMapInfo map;
     gst_buffer_map(out, &map, GST_MAP_READ);
     // A ring of 5.5 px, 1.4 px thick, about the middle, where a hand holds the simulated grip.

@@ -32,18 +32,11 @@ Played play(const std::string& properties, bool right) {
   h.set_caps(make_caps("GRAY8", kWidth, kHeight));
   Played played;
   for (int n = 0; n < 3; ++n) {
-    GstBuffer* frame = make_frame(h.info(), kPicture_px * n, 0);
-    GstMapInfo map;
-    gst_buffer_map(frame, &map, GST_MAP_WRITE);
-    for (int y = 0; y < kHeight; ++y) {
-      for (int x = 0; x < kWidth; ++x) {
-        if (right ? x < kWidth / 2 : y < kHeight / 2) continue;
-        map.data[y * kWidth + x] = static_cast<guint8>(texture(x - kDepth_px * n, y));
-      }
-    }
-    gst_buffer_unmap(frame, &map);
-    EXPECT_EQ(h.push(frame, static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    GstBuffer* frame = make_picture(h.info(), [&](int x, int y) {
+      const bool is_picture = right ? x < kWidth / 2 : y < kHeight / 2;
+      return texture(x - (is_picture ? kPicture_px : kDepth_px) * n, y);
+    });
+    GstBuffer* out = h.pass(frame, static_cast<GstClockTime>(n) * kFrame);
     if (n == 2) {
       EXPECT_TRUE(gst_buffer_get_spidar_motion(out, &played.motion));
       GArray* points = gst_buffer_get_spidar_points(out);

@@ -59,20 +59,10 @@ struct Aspect {
 };
 
 GstBuffer* frame_of(const Film& film, int n, const GstVideoInfo& info) {
-  GstBuffer* frame = gst_buffer_new_allocate(nullptr, GST_VIDEO_INFO_SIZE(&info), nullptr);
-  GstMapInfo map;
-  gst_buffer_map(frame, &map, GST_MAP_WRITE);
-  const int stored_width = GST_VIDEO_INFO_WIDTH(&info);
-  const int stride = GST_VIDEO_INFO_PLANE_STRIDE(&info, 0);
-  const double pixel_px = static_cast<double>(kWidth) / stored_width;
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < stored_width; ++x) {
-      const double grey = film(n, (x + 0.5) * pixel_px - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
-      map.data[y * stride + x] = static_cast<guint8>(std::lround(grey));
-    }
-  }
-  gst_buffer_unmap(frame, &map);
-  return frame;
+  const double pixel_px = static_cast<double>(kWidth) / GST_VIDEO_INFO_WIDTH(&info);
+  return make_picture(info, [&](int x, int y) {
+    return film(n, (x + 0.5) * pixel_px - kWidth / 2.0, y + 0.5 - kHeight / 2.0);
+  });
 }
 
 GstCaps* caps_of(const Aspect& aspect) {
@@ -92,8 +82,7 @@ Felt feel(const Film& film, const std::string& properties, const Aspect& aspect)
   h.set_caps(caps_of(aspect));
   Felt felt;
   for (int n = 0; n < 10; ++n) {
-    h.push(frame_of(film, n, h.info()), static_cast<GstClockTime>(n) * kFrame);
-    GstBuffer* out = gst_harness_pull(h.harness());
+    GstBuffer* out = h.pass(frame_of(film, n, h.info()), static_cast<GstClockTime>(n) * kFrame);
     felt.boxes = read_object_metas(out);
     gst_buffer_unref(out);
   }
@@ -192,21 +181,13 @@ TEST(PixelAspect, AHeaderThatCannotBeRightIsIgnored) {
 }
 
 /// Two views in one frame, of which only the first moves.
-GstBuffer* two_views(int n, bool beside) {
-  GstBuffer* frame = gst_buffer_new_allocate(nullptr, kWidth * kHeight, nullptr);
-  GstMapInfo map;
-  gst_buffer_map(frame, &map, GST_MAP_WRITE);
-  for (int y = 0; y < kHeight; ++y) {
-    for (int x = 0; x < kWidth; ++x) {
-      const bool is_first = beside ? x < kWidth / 2 : y < kHeight / 2;
-      // Halved along the side on which they are packed.
-      const double shown_x = beside ? 2 * x : x, shown_y = beside ? y : 2 * y;
-      map.data[y * kWidth + x] = static_cast<guint8>(std::lround(
-          is_first ? wall(shown_x + 6.0 * n, shown_y + 6.0 * n) : wall(shown_x, shown_y)));
-    }
-  }
-  gst_buffer_unmap(frame, &map);
-  return frame;
+GstBuffer* two_views(const GstVideoInfo& info, int n, bool beside) {
+  return make_picture(info, [&](int x, int y) {
+    const bool is_first = beside ? x < kWidth / 2 : y < kHeight / 2;
+    // Halved along the side on which they are packed.
+    const double shown_x = beside ? 2 * x : x, shown_y = beside ? y : 2 * y;
+    return is_first ? wall(shown_x + 6.0 * n, shown_y + 6.0 * n) : wall(shown_x, shown_y);
+  });
 }
 
 /// That they were squeezed is said, or shows in the shape of the frame, which is that of one.
@@ -223,7 +204,8 @@ TEST(PixelAspect, OfTwoViewsInAFrameTheFirstIsFelt) {
                         GST_TYPE_VIDEO_MULTIVIEW_FLAGSET, flags, GST_FLAG_SET_MASK_EXACT, nullptr);
     h.set_caps(caps);
     for (int n = 0; n < 3; ++n) {
-      ASSERT_EQ(h.push(two_views(n, beside), static_cast<GstClockTime>(n) * kFrame), GST_FLOW_OK);
+      ASSERT_EQ(h.push(two_views(h.info(), n, beside), static_cast<GstClockTime>(n) * kFrame),
+                GST_FLOW_OK);
     }
     ASSERT_EQ(h.motions().size(), 3u);
     // Of a picture twice as wide or high, to the upper left by the same in both directions.

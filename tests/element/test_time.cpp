@@ -12,18 +12,25 @@ namespace {
 constexpr GstClockTime kFrame = 40 * GST_MSECOND;
 constexpr double kTolerance_px = 0.1;  // see test_frames.cpp
 
+void send_segment(ElementHarness& h, double rate, GstClockTime start,
+                  GstClockTime stop = GST_CLOCK_TIME_NONE, GstClockTime base = 0) {
+  GstSegment segment;
+  gst_segment_init(&segment, GST_FORMAT_TIME);
+  segment.rate = rate;
+  segment.base = base;
+  segment.start = segment.time = start;
+  segment.stop = stop;
+  segment.position = rate < 0 ? stop : start;
+  gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+}
+
+void flush(ElementHarness& h) {
+  gst_harness_push_event(h.harness(), gst_event_new_flush_start());
+  gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
+}
+
 struct Time : testing::Test {
   Time() { h.set_caps(make_caps("GRAY8", 320, 240)); }
-
-  void send_segment(double rate, GstClockTime start, GstClockTime stop, GstClockTime position) {
-    GstSegment segment;
-    gst_segment_init(&segment, GST_FORMAT_TIME);
-    segment.rate = rate;
-    segment.start = segment.time = start;
-    segment.stop = stop;
-    segment.position = position;
-    gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
-  }
 
   ElementHarness h;
 };
@@ -38,7 +45,7 @@ TEST_F(Time, VelocityIsOverTheTimeThatPassesAndNotOverTheNominalRate) {
 }
 
 TEST_F(Time, ReverseTurnsTheVelocityRound) {
-  send_segment(-1.0, 0, GST_SECOND, GST_SECOND);
+  send_segment(h, -1.0, 0, GST_SECOND);
   h.push_moved(20, 0, 10 * kFrame);
   h.push_moved(18, 0, 9 * kFrame);
   ASSERT_EQ(h.motions().size(), 2u);
@@ -48,7 +55,7 @@ TEST_F(Time, ReverseTurnsTheVelocityRound) {
 }
 
 TEST_F(Time, AFrameThatBeginsBeforeTheSegmentIsShownWithIt) {
-  send_segment(1.0, 10 * kFrame + kFrame / 2, GST_CLOCK_TIME_NONE, 0);
+  send_segment(h, 1.0, 10 * kFrame + kFrame / 2);
   h.push_moved(0, 0, 9 * kFrame);  // is over by then
   h.push_moved(2, 0, 10 * kFrame);
   h.push_moved(4, 0, 11 * kFrame);
@@ -59,7 +66,7 @@ TEST_F(Time, AFrameThatBeginsBeforeTheSegmentIsShownWithIt) {
 }
 
 TEST_F(Time, MessagesCarryAllTimes) {
-  send_segment(1.0, GST_SECOND, GST_CLOCK_TIME_NONE, GST_SECOND);
+  send_segment(h, 1.0, GST_SECOND);
   GstBuffer* frame = make_frame(h.info(), 0, 0);
   GST_BUFFER_DURATION(frame) = kFrame;
   h.push(frame, GST_SECOND + kFrame);
@@ -79,9 +86,8 @@ TEST_F(Time, ASeekOfAnyLengthBeginsAnotherEpoch) {
   for (const GstClockTimeDiff by : kBy_ns) {
     const uint32_t before = h.state().report().stamp.epoch;
     at += static_cast<GstClockTime>(by);
-    gst_harness_push_event(h.harness(), gst_event_new_flush_start());
-    gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
-    send_segment(1.0, at, GST_CLOCK_TIME_NONE, at);
+    flush(h);
+    send_segment(h, 1.0, at);
     h.push_moved(0, 0, at);
     const FrameStamp first = h.state().report().stamp;
     EXPECT_NE(first.epoch, before) << by;
@@ -95,10 +101,7 @@ TEST_F(Time, AnotherFilmWithoutAGapBeginsAnotherEpoch) {
   h.push_moved(0, 0, 0);
   const uint32_t before = h.state().report().stamp.epoch;
   gst_harness_push_event(h.harness(), gst_event_new_stream_start("second"));
-  GstSegment segment;
-  gst_segment_init(&segment, GST_FORMAT_TIME);
-  segment.base = kFrame;
-  gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
+  send_segment(h, 1.0, 0, GST_CLOCK_TIME_NONE, kFrame);
   h.push_moved(2, 0, 0);
   EXPECT_NE(h.state().report().stamp.epoch, before);
   EXPECT_EQ(h.state().report().stamp.running_ns, static_cast<int64_t>(kFrame));
@@ -112,47 +115,51 @@ TEST_F(Time, AGapInTheFilmIsNoSeek) {
   EXPECT_EQ(h.state().report().stamp.epoch, before);
 }
 
-TEST_F(Time, DiscontinuityIsNoMotion) {
+TEST_F(Time, TheSameSegmentAgainIsNoCut) {
+  send_segment(h, 1.0, 0);
   h.push_moved(0, 0, 0);
-  h.push_moved(2, 0, kFrame);
-  h.push_moved(9, 0, 2 * kFrame, GST_BUFFER_FLAG_DISCONT);
-  h.push_moved(11, 0, 3 * kFrame);
-  ASSERT_EQ(h.motions().size(), 4u);
-  EXPECT_EQ(h.motions()[2].velocity_x, 0);
-  EXPECT_EQ(h.motions()[2].wrench.force_N.norm(), 0);
-  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
-}
-
-TEST_F(Time, FlushIsNoMotion) {
-  h.push_moved(0, 0, 0);
-  h.push_moved(2, 0, kFrame);
-  gst_harness_push_event(h.harness(), gst_event_new_flush_start());
-  gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
-  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
-  h.push_moved(9, 0, 0);
-  h.push_moved(11, 0, kFrame);
-  ASSERT_EQ(h.motions().size(), 4u);
-  EXPECT_EQ(h.motions()[2].velocity_x, 0);
-  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
-  EXPECT_TRUE(h.warnings().empty());
-}
-
-TEST_F(Time, AnotherSegmentIsNoMotionButTheSameOneIs) {
-  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
-  h.push_moved(0, 0, 0);
-  send_segment(1.0, 0, GST_CLOCK_TIME_NONE, 0);
+  send_segment(h, 1.0, 0);
   h.push_moved(2, 0, kFrame);
   ASSERT_EQ(h.motions().size(), 2u);
   EXPECT_NEAR(h.motions()[1].velocity_x, 50, kTolerance_px / 0.04);
+}
 
-  GstSegment loop;  // as a gapless loop sends it: base goes on, the picture begins anew
-  gst_segment_init(&loop, GST_FORMAT_TIME);
-  loop.base = 2 * kFrame;
-  gst_harness_push_event(h.harness(), gst_event_new_segment(&loop));
-  h.push_moved(9, 0, 0);
-  ASSERT_EQ(h.motions().size(), 3u);
-  EXPECT_EQ(h.motions()[2].running_time, 2 * kFrame);
-  EXPECT_EQ(h.motions()[2].velocity_x, 0);
+TEST_F(Time, AfterAnInterruptionTheFirstFrameIsNoMotion) {
+  struct Case {
+    const char* name;
+    std::function<void(ElementHarness&)> interrupt;
+    GstClockTime next;  ///< the time of the frame after it
+    guint flags;
+    size_t warnings;
+  };
+  const auto nothing = [](ElementHarness&) {};
+  const auto seek = [](ElementHarness& to) {
+    flush(to);
+    send_segment(to, 1.0, 0);
+  };
+  // As a gapless loop sends it: base goes on, the picture begins anew.
+  const auto loop = [](ElementHarness& to) {
+    send_segment(to, 1.0, 0, GST_CLOCK_TIME_NONE, 7 * kFrame);
+  };
+  for (const Case& c : {Case{"discontinuity", nothing, 7 * kFrame, GST_BUFFER_FLAG_DISCONT, 0},
+                        {"seek", seek, 0, 0, 0},
+                        {"loop", loop, 0, 0, 0},
+                        {"falling timestamps", nothing, 3 * kFrame, 0, 1}}) {
+    SCOPED_TRACE(c.name);
+    ElementHarness frames;
+    frames.set_caps(make_caps("GRAY8", 320, 240));
+    frames.push_moved(0, 0, 5 * kFrame);
+    frames.push_moved(2, 0, 6 * kFrame);
+    c.interrupt(frames);
+    frames.push_moved(9, 0, c.next, c.flags);
+    frames.push_moved(11, 0, c.next + kFrame);
+    ASSERT_EQ(frames.motions().size(), 4u);
+    EXPECT_EQ(frames.motions()[2].velocity_x, 0);
+    EXPECT_EQ(frames.motions()[2].wrench.force_N.norm(), 0);
+    if (c.name == std::string("loop")) EXPECT_EQ(frames.motions()[2].running_time, 7 * kFrame);
+    EXPECT_NEAR(frames.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
+    EXPECT_EQ(frames.warnings().size(), c.warnings);
+  }
 }
 
 TEST_F(Time, AGapDoesNotStopTheFramesThatItHasOvertaken) {
@@ -264,13 +271,12 @@ TEST_F(Time, AnAccurateSeekBetweenTwoFramesGivesNoWarning) {
        {std::pair{1.0, GstClockTime{0}}, {1.0, GstClockTime{GST_MSECOND}}, {-1.0, 0}}) {
     SCOPED_TRACE(rate);
     const size_t before = h.motions().size();
-    gst_harness_push_event(h.harness(), gst_event_new_flush_start());
-    gst_harness_push_event(h.harness(), gst_event_new_flush_stop(TRUE));
+    flush(h);
     if (rate > 0) {
-      send_segment(rate, 10 * kFrame, GST_CLOCK_TIME_NONE, 10 * kFrame);
+      send_segment(h, rate, 10 * kFrame);
       for (GstClockTime n = 9; n < 13; ++n) push(2.0 * static_cast<double>(n), n * kFrame + later);
     } else {
-      send_segment(rate, 0, 10 * kFrame, 10 * kFrame);
+      send_segment(h, rate, 0, 10 * kFrame);
       for (GstClockTime n = 10; n >= 7; --n) {
         push(2.0 * static_cast<double>(n), n * kFrame - GST_USECOND);
       }
@@ -288,17 +294,6 @@ TEST_F(Time, OnlyTheFirstFrameOfASegmentIsReplaced) {
   EXPECT_EQ(h.warnings().size(), 1u);
 }
 
-TEST_F(Time, FallingTimestampsRestart) {
-  h.push_moved(0, 0, 5 * kFrame);
-  h.push_moved(2, 0, 6 * kFrame);
-  h.push_moved(9, 0, 3 * kFrame);
-  h.push_moved(11, 0, 4 * kFrame);
-  ASSERT_EQ(h.motions().size(), 4u);
-  EXPECT_EQ(h.motions()[2].velocity_x, 0);
-  EXPECT_NEAR(h.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
-  EXPECT_EQ(h.warnings().size(), 1u);
-}
-
 TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
   // The undefined-behaviour sanitizer has the last word here. What is at most 73 years is felt.
   constexpr GstClockTime k73Years = GstClockTime{1} << 61;
@@ -309,18 +304,10 @@ TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
     ElementHarness h("device=sim", [&] { return now_ns; });
     h.set_caps(make_caps("GRAY8", 64, 48));
     const GstClockTime base = border - 2 * kFrame;
-    const auto send_segment = [&h](double rate, GstClockTime segment_base, GstClockTime start) {
-      GstSegment segment;
-      gst_segment_init(&segment, GST_FORMAT_TIME);
-      segment.rate = rate;
-      segment.base = segment_base;
-      segment.start = segment.time = start;
-      gst_harness_push_event(h.harness(), gst_event_new_segment(&segment));
-    };
     // Once by the base of the segment and once by the timestamps; there and back again.
     for (const auto& [segment_base, start] :
          {std::pair{base, GstClockTime{0}}, {0, 0}, {0, base}}) {
-      send_segment(1, segment_base, start);
+      send_segment(h, 1, start, GST_CLOCK_TIME_NONE, segment_base);
       const GstClockTime first = segment_base > 0 ? 0 : base;
       for (GstClockTime n = 0; n < 2; ++n) {
         EXPECT_EQ(h.push_moved(2.0 * static_cast<double>(n), 0, first + n * kFrame), GST_FLOW_OK);
@@ -346,7 +333,7 @@ TEST(Borders, TimesNearTheEndOfTheScaleDoNotOverflow) {
 }
 
 TEST_F(Time, FramesOutsideTheSegmentAreNotShownAndNotFelt) {
-  send_segment(1.0, 10 * kFrame, 20 * kFrame, 10 * kFrame);
+  send_segment(h, 1.0, 10 * kFrame, 20 * kFrame);
   h.push_moved(0, 0, 5 * kFrame);
   h.push_moved(2, 0, 10 * kFrame);
   EXPECT_EQ(h.motions().size(), 1u);

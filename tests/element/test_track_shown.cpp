@@ -26,12 +26,6 @@ class TrackShown : public testing::Test {
     path = (folder.path / "film.haptic.wav").string();
     write_track(path, kFrames * 40, [](double) { return TrackSample{kFraction, 0, 0, 0, 0, 0}; });
   }
-  /// The frame that comes out.
-  GstBuffer* pass(ElementHarness& h, int number) {
-    h.push(make_frame(h.info(), 0, 0), static_cast<GstClockTime>(number) * kFrame);
-    return gst_harness_pull(h.harness());
-  }
-
   TemporaryFolder folder;
   std::string path;
 };
@@ -39,7 +33,7 @@ class TrackShown : public testing::Test {
 TEST_F(TrackShown, EachFrameHasAMessageWithTheForceAndTheTrack) {
   ElementHarness h("device=none track=" + path);
   h.set_caps(make_caps("GRAY8", 320, 240));
-  for (int i = 0; i < kFrames; ++i) gst_buffer_unref(pass(h, i));
+  for (int i = 0; i < kFrames; ++i) h.push_moved(0, 0, static_cast<GstClockTime>(i) * kFrame);
   ASSERT_EQ(h.motions().size(), static_cast<size_t>(kFrames));
   for (const MotionMessage& message : h.motions()) {
     EXPECT_EQ(message.track, path);
@@ -47,30 +41,17 @@ TEST_F(TrackShown, EachFrameHasAMessageWithTheForceAndTheTrack) {
     EXPECT_EQ(message.no_force, "none");
   }
   EXPECT_EQ(h.motions()[2].running_time, 2 * kFrame);
-}
-
-TEST_F(TrackShown, AFrameThatIsAnalysedNamesNoTrack) {
-  ElementHarness h("device=none");
-  h.set_caps(make_caps("GRAY8", 320, 240));
-  gst_buffer_unref(pass(h, 0));
-  ASSERT_EQ(h.motions().size(), 1u);
-  EXPECT_EQ(h.motions()[0].track, "");
-}
-
-TEST_F(TrackShown, StatsNameTheTrack) {
-  ElementHarness h("device=none track=" + path);
-  h.set_caps(make_caps("GRAY8", 320, 240));
-  gst_buffer_unref(pass(h, 0));
-  GstStructure* stats = nullptr;
-  g_object_get(h.element(), "stats", &stats, nullptr);
-  EXPECT_STREQ(gst_structure_get_string(stats, "track"), path.c_str());
-  gst_structure_free(stats);
+  EXPECT_EQ(h.stats_field("track"), path);
+  ElementHarness analysed;
+  analysed.set_caps(make_caps("GRAY8", 320, 240));
+  analysed.push_moved(0, 0, 0);
+  EXPECT_EQ(analysed.motions().at(0).track, "");
 }
 
 TEST_F(TrackShown, TheMetaHasItsForce) {
   ElementHarness h("device=none attach-meta=true track=" + path);
   h.set_caps(make_caps("GRAY8", 320, 240));
-  GstBuffer* const frame = pass(h, 0);
+  GstBuffer* const frame = h.pass(make_frame(h.info(), 0, 0), 0);
   GstSpidarFrameMotion motion{};
   ASSERT_TRUE(gst_buffer_get_spidar_motion(frame, &motion));
   EXPECT_NEAR(motion.force_x, 10 * kFraction, kTolerance_N);
@@ -84,11 +65,9 @@ TEST_F(TrackShown, TheOverlayDrawsArrowAndCurve) {
   h.set_caps(make_caps("GRAY8", 320, 240));
   GstBuffer* out = nullptr;
   for (int i = 0; i < kFrames; ++i) {
-    GstBuffer* frame = gst_buffer_new_allocate(nullptr, 320 * 240, nullptr);
-    gst_buffer_memset(frame, 0, 100, 320 * 240);
-    h.push(frame, static_cast<GstClockTime>(i) * kFrame);
     gst_clear_buffer(&out);
-    out = gst_harness_pull(h.harness());
+    out = h.pass(make_picture(h.info(), [](int, int) { return 100; }),
+                 static_cast<GstClockTime>(i) * kFrame);
   }
   GstMapInfo map;
   gst_buffer_map(out, &map, GST_MAP_READ);

@@ -79,6 +79,13 @@ GstFlowReturn ElementHarness::push(GstBuffer* frame, GstClockTime pts, guint fla
   return gst_harness_push(harness_, frame);
 }
 
+GstBuffer* ElementHarness::pass(GstBuffer* frame, GstClockTime pts, guint flags) {
+  if (const GstFlowReturn flow = push(frame, pts, flags); flow != GST_FLOW_OK) {
+    g_error("the frame is refused: %s", gst_flow_get_name(flow));
+  }
+  return gst_harness_pull(harness_);
+}
+
 GstFlowReturn ElementHarness::push_moved(double dx, double dy, GstClockTime pts, guint flags) {
   return push(make_frame(info_, dx, dy), pts, flags);
 }
@@ -121,6 +128,21 @@ const std::vector<std::string>& ElementHarness::warnings() {
 const std::vector<std::string>& ElementHarness::errors() {
   drain();
   return errors_;
+}
+
+std::string ElementHarness::stats_field(const char* name) const {
+  GstStructure* stats = nullptr;
+  g_object_get(harness_->element, "stats", &stats, nullptr);
+  const GValue* const value = gst_structure_get_value(stats, name);
+  std::string text;
+  if (value && G_VALUE_HOLDS_STRING(value)) {
+    if (const char* const held = g_value_get_string(value)) text = held;
+  } else if (value) {
+    g_autofree gchar* written = gst_value_serialize(value);
+    text = written;
+  }
+  gst_structure_free(stats);
+  return text;
 }
 
 filter::MotionState& ElementHarness::state() {

@@ -44,12 +44,17 @@ class ElementHarness {
   void set_caps(GstCaps* caps);  // takes ownership
   /// Pushes a frame and returns its flow. `flags` are GstBufferFlags.
   GstFlowReturn push(GstBuffer* frame, GstClockTime pts, guint flags = 0);
+  /// The buffer that comes out for one that goes in without an error.
+  GstBuffer* pass(GstBuffer* frame, GstClockTime pts, guint flags = 0);
   GstFlowReturn push_moved(double dx, double dy, GstClockTime pts, guint flags = 0);
 
   // Everything posted so far; of warnings and errors the message text.
   const std::vector<MotionMessage>& motions();
   const std::vector<std::string>& warnings();
   const std::vector<std::string>& errors();
+
+  /// A field of the property `stats`, empty where it is none.
+  std::string stats_field(const char* name) const;
 
   GstElement* element() const { return harness_->element; }
   GstHarness* harness() const { return harness_; }

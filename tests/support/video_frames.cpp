@@ -15,7 +15,7 @@ double texture(double x, double y) {
   return picture.at(x, y);
 }
 
-GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride) {
+GstBuffer* make_picture(const GstVideoInfo& info, const GreyAt& grey, int plane0_extra_stride) {
   gsize offset[GST_VIDEO_MAX_PLANES] = {};
   gint stride[GST_VIDEO_MAX_PLANES] = {};
   const guint planes = GST_VIDEO_INFO_N_PLANES(&info);
@@ -39,7 +39,7 @@ GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0
   for (int y = 0; y < GST_VIDEO_INFO_HEIGHT(&info); ++y) {
     guint8* line = map.data + static_cast<gsize>(stride[0]) * static_cast<gsize>(y);
     for (int x = 0; x < GST_VIDEO_INFO_WIDTH(&info); ++x) {
-      const auto level = static_cast<guint>(std::lround(texture(x - dx, y - dy)));
+      const auto level = static_cast<guint>(std::lround(grey(x, y)));
       if (is_rgb) {
         std::memset(line + x * pixel_stride, static_cast<int>(level),
                     static_cast<size_t>(pixel_stride));
@@ -50,6 +50,11 @@ GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0
   }
   gst_buffer_unmap(buffer, &map);
   return buffer;
+}
+
+GstBuffer* make_frame(const GstVideoInfo& info, double dx, double dy, int plane0_extra_stride) {
+  return make_picture(
+      info, [&](int x, int y) { return texture(x - dx, y - dy); }, plane0_extra_stride);
 }
 
 GstCaps* make_caps(const char* format, int width, int height, int fps_n, int fps_d) {

@@ -125,27 +125,6 @@ TEST_F(WindowElement, TheWindowIsWhatThePropertySaysWhoeverSetsIt) {
   EXPECT_TRUE(h->warnings().empty());
 }
 
-/// A change of the state has a lock that a seek waits for, and may wait for the window.
-TEST_F(WindowElement, SeekingWaitsForNoChangeOfTheState) {
-  open("device=none");
-  GST_STATE_LOCK(h->element());
-  std::thread window([this] {
-    const auto source = gst_spidar_motion_state(GST_SPIDAR_MOTION(h->element())).display.source();
-    for (const int64_t to_ns : {3, 4, 5}) source->seek(to_ns);
-  });
-  window.join();
-  GST_STATE_UNLOCK(h->element());
-  gint64 to_ns = 0;
-  while (to_ns != 5) {  // the last of those that waited
-    GstEvent* const event = gst_harness_pull_upstream_event(h->harness());
-    if (event && GST_EVENT_TYPE(event) == GST_EVENT_SEEK) {
-      gst_event_parse_seek(event, nullptr, nullptr, nullptr, nullptr, &to_ns, nullptr, nullptr);
-      EXPECT_GE(to_ns, 0);
-    }
-    if (event) gst_event_unref(event);
-  }
-}
-
 TEST_F(WindowElement, AWindowSystemThatHangsHoldsUpNothing) {
   open("device=sim debug-window=true alpha=0.01");
   look(*window());
