@@ -45,13 +45,13 @@ Eigen::Vector2d mean_step_of(const std::vector<FollowedPoint>& points) {
 
 }  // namespace
 
-void MotionAnalyzer::take(const Cadence::Step& step) {
+void MotionAnalyzer::set_times(const Cadence::Step& step) {
   frame_.interval_ns = std::max(step.interval_ns, kMinInterval_ns);
   frame_.shown_for_ns = step.shown_for_ns;
 }
 
 /// Begins anew with the area of the settings when that area or the size of the pictures changes.
-void MotionAnalyzer::enter(const ImageView& picture) {
+void MotionAnalyzer::update_area(const ImageView& picture) {
   FilmPlace& place = frame_.place;
   const bool is_other_size =
       place.picture_width != picture.width || place.picture_height != picture.height;
@@ -100,7 +100,7 @@ void MotionAnalyzer::look_for_film(const ImageView& picture, const ImageView& fi
   if (!is_reduced) {
     reduce_blocks(picture, halving_factor(picture.width, picture.height), whole_);
   }
-  area_finder_.look((is_reduced ? now_->reduced.base() : whole_).view(), running_ns, scrolls);
+  area_finder_.observe((is_reduced ? now_->reduced.base() : whole_).view(), running_ns, scrolls);
   frame_.place.is_known = !area_finder_.is_searching();
   frame_.place.is_page = !frame_.place.is_known && area_finder_.is_page();
 }
@@ -138,7 +138,7 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
   const Eigen::Vector2d step_px = mean_step_of(next_frame_.points) / factor;
   if (is_next_compared) {
     const bool moves = next_frame_.dominant != 0 || step_px.norm() > kFlickers_px;
-    area_finder_.tell(moves, step_px.x(), step_px.y(), running_ns);
+    area_finder_.observe_motion(moves, step_px.x(), step_px.y(), running_ns);
   }
   // Until the switch, a film whose camera moves is wrongly felt as an object. After two pairs, most
   // of the objects in the film are confirmed.
@@ -159,7 +159,7 @@ bool MotionAnalyzer::follow_film(const ImageView& picture, bool is_compared, int
 
 /// Reads the picture and measures its motion. Returns false without measuring while it waits.
 bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
-  enter(picture);
+  update_area(picture);
   const ImageView film = part_of(picture, now_->area);
   const FrameComparison comparison = read(*now_, film, cadence_.would_wait(running_ns));
   if (finds_area()) look_for_film(picture, film, running_ns);
@@ -177,7 +177,7 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
     return false;
   }
   frame_.clear_motion();
-  take(step);
+  set_times(step);
   if (!frame_.place.is_known) {  // the film may have moved
     now_->motion.reset();
     now_->pairs = 0;
@@ -237,7 +237,7 @@ const Frame* MotionAnalyzer::repeat(int64_t running_ns) {
   const Cadence::Step step = cadence_.update(FrameComparison::kSame, running_ns);
   frame_.picture = step.waits ? FrameComparison::kWaiting : FrameComparison::kSame;
   if (!step.waits) {
-    take(step);
+    set_times(step);
     renderer_.render(frame_, settings_, stream_ns_, turn_);
   }
   return &frame_;

@@ -87,10 +87,10 @@ class MotionAnalyzer {
 
   bool by_points() const { return settings_.motion == MotionKind::kMean; }
   bool finds_area() const { return settings_.area.kind == AreaSetting::Kind::kAuto; }
-  void enter(const ImageView& picture);
+  void update_area(const ImageView& picture);
   void look_for_film(const ImageView& picture, const ImageView& film, int64_t running_ns);
   FrameComparison read(Measured& measured, const ImageView& film, bool may_wait = false) const;
-  void take(const Cadence::Step& step);
+  void set_times(const Cadence::Step& step);
   bool compare(Measured& measured, const ImageView& film, MeasuredFrame& frame,
                uint32_t felt) const;
   PicturePart film_in(const ImageView& picture) const;

@@ -114,21 +114,21 @@ void AreaFinder::begin(const ImageView& picture) {
     map->resize(cells_.width() * kAreaCell_px, cells_.height() * kAreaCell_px);
     mat_of(*map).setTo(0);
   }
-  keep(picture);
+  store(picture);
 }
 
-void AreaFinder::keep(const ImageView& picture) {
+void AreaFinder::store(const ImageView& picture) {
   for (int y = 0; y < height_; ++y) std::copy_n(picture.at(0, y), width_, now_.row(y));
 }
 
 /// Compares the picture with the one before, and stores it. Returns false if it shows the same.
-bool AreaFinder::take(const ImageView& picture) {
+bool AreaFinder::compare(const ImageView& picture) {
   using cv::v_uint8x16;
   const v_uint8x16 grey = cv::v_setall_u8(kChanged_grey), one = cv::v_setall_u8(1);
   const v_uint8x16 rise = cv::v_setall_u8(compared_ == 0 ? kFirstRise : kRise);
   const v_uint8x16 most = cv::v_setall_u8(kMaxLevel), lasts = cv::v_setall_u8(kLasts);
   std::swap(now_, before_);
-  keep(picture);
+  store(picture);
   const int width = width_;  // a local copy, because stored bytes may alias a member
   for (int y = 0; y < height_; ++y) {
     const uint8_t *const now = now_.row(y), *const before = before_.row(y);
@@ -347,7 +347,7 @@ bool AreaFinder::stands(const Side& side, const PicturePart& part, bool is_colum
   return side.is_straight && inside > kMost * kStraight * length && outside < kMost * inside;
 }
 
-void AreaFinder::tell(bool moves, double across_px, double down_px, int64_t running_ns) {
+void AreaFinder::observe_motion(bool moves, double across_px, double down_px, int64_t running_ns) {
   if (!moves) stayed_ = std::min(stayed_, 1);  // what only flickers has no sides
   if (!is_guess() || stayed_ < 2) return;
   if (stayed_ == 2) moved_px_ = {};
@@ -383,7 +383,7 @@ void AreaFinder::look_for_copies(const ImageView& picture, int64_t running_ns) {
   }
 }
 
-void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls) {
+void AreaFinder::observe(const ImageView& picture, int64_t running_ns, bool scrolls) {
   if (picture.width != width_ || picture.height != height_) {
     return begin(picture);
   }
@@ -391,7 +391,7 @@ void AreaFinder::look(const ImageView& picture, int64_t running_ns, bool scrolls
   const bool is_quiet = area() ? state_ == State::kBetweenCopies : stayed_ == 0 && !is_searching();
   passed_ = is_quiet && !is_new && !scrolls ? (passed_ + 1) % kLookEvery : 0;
   if (passed_ > 0) return;
-  if (!take(picture) && !scrolls) return;
+  if (!compare(picture) && !scrolls) return;
   const bool has_scrolled = std::exchange(scrolls_, scrolls);
   if (scrolls && has_scrolled) search(State::kPage, running_ns);
   if (scrolls) return;

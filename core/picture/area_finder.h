@@ -38,9 +38,9 @@ namespace spidar {
 /// a picture at rest.
 class AreaFinder {
  public:
-  /// Takes the next picture, reduced to 8 bits; a repetition of the previous one changes nothing.
-  /// `scrolls` says that it is the previous one, scrolled.
-  void look(const ImageView& picture, int64_t running_ns, bool scrolls = false);
+  /// Observes the next picture, reduced to 8 bits; a repetition of the previous one changes
+  /// nothing. `scrolls` says that it is the previous one, scrolled.
+  void observe(const ImageView& picture, int64_t running_ns, bool scrolls = false);
 
   /// The film in px of the reduced picture; nothing: the film is the whole picture.
   std::optional<PicturePart> area() const {
@@ -55,9 +55,9 @@ class AreaFinder {
   std::optional<PicturePart> film() const { return is_guess() ? pending_.part : area(); }
   /// Whether film() is a guess.
   bool is_guess() const { return state_ == State::kWhole && stayed_ > 0 && !scrolls_; }
-  /// Takes whether anything in film() moves while that is a guess, and the mean displacement to the
-  /// last picture. This may confirm or refute the guess.
-  void tell(bool moves, double across_px, double down_px, int64_t running_ns);
+  /// Observes whether anything in film() moves while that is a guess, and the mean displacement to
+  /// the last picture. This may confirm or refute the guess.
+  void observe_motion(bool moves, double across_px, double down_px, int64_t running_ns);
   /// Whether the search is in a page.
   bool is_page() const { return scrolls_ || state_ == State::kPage; }
 
@@ -96,8 +96,8 @@ class AreaFinder {
   };
 
   void begin(const ImageView& picture);
-  bool take(const ImageView& picture);
-  void keep(const ImageView& picture);
+  bool compare(const ImageView& picture);
+  void store(const ImageView& picture);
   void count_cells();
   bool reach_all_borders() const;
   std::optional<Candidate> best_candidate() const;

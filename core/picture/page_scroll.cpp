@@ -53,7 +53,7 @@ uint64_t begin_of(const uint8_t* line) {
 
 }  // namespace
 
-void PageScroll::keep(const ImageView& picture) {
+void PageScroll::store(const ImageView& picture) {
   width_ = picture.width;
   height_ = picture.height;
   bytes_ = picture.sample.bytes;
@@ -139,7 +139,7 @@ bool PageScroll::update(const ImageView& picture) {
       picture.width == width_ && picture.height == height_ && picture.sample.bytes == bytes_;
   if (!is_comparable) rests_.fill(kRests);
   const bool scrolls = is_comparable && compare(picture);
-  keep(picture);
+  store(picture);
   return scrolls;
 }
 

@@ -35,7 +35,7 @@ class PageScroll {
   };
 
   bool compare(const ImageView& picture);
-  void keep(const ImageView& picture);
+  void store(const ImageView& picture);
 
   int width_ = 0, height_ = 0;
   int bytes_ = 0;  ///< of a pixel

@@ -38,7 +38,7 @@ Seen see(const Scene& scene, int pictures, double noise_grey = 0) {
     picture.fill([&](double x, double y) {
       return std::clamp(scene(n, x, y) + (noise_grey > 0 ? noise(random) : 0), 0.0, 255.0);
     });
-    finder.look(picture.view(), n * kPicture_ns);
+    finder.observe(picture.view(), n * kPicture_ns);
     seen.area.push_back(finder.area());
     seen.searches.push_back(finder.is_searching());
   }
@@ -100,7 +100,7 @@ TEST(AreaFinder, FindsAFilmBetweenEnlargedCopiesOfItself) {
     Picture picture(kWidth, kHeight);
     for (int n = 0; n < 2 * kRate; ++n) {
       picture.fill([&](double x, double y) { return within(enlarged, part, film)(n, x, y); });
-      finder.look(picture.view(), n * kPicture_ns);
+      finder.observe(picture.view(), n * kPicture_ns);
       if (n == 0) continue;
       ASSERT_TRUE(finder.film()) << n;
       EXPECT_FALSE(finder.is_guess());
@@ -114,7 +114,7 @@ TEST(AreaFinder, FindsAFilmBetweenEnlargedCopiesOfItself) {
     // What ends must not leave the film cut.
     for (int n = 2 * kRate; n < 5 * kRate; ++n) {
       picture.fill([&](double x, double y) { return film(n, x, y); });
-      finder.look(picture.view(), n * kPicture_ns);
+      finder.observe(picture.view(), n * kPicture_ns);
     }
     EXPECT_FALSE(finder.film());
   }
@@ -132,7 +132,7 @@ TEST(AreaFinder, FollowsAFilmFromAPageBetweenItsCopiesAndBack) {
   Picture picture(kWidth, kHeight);
   for (int n = 0; n < 8 * kRate; ++n) {
     picture.fill([&](double x, double y) { return scene(n, x, y); });
-    finder.look(picture.view(), n * kPicture_ns);
+    finder.observe(picture.view(), n * kPicture_ns);
     if (n != begins - 1 && n != ends - 1) continue;
     EXPECT_FALSE(finder.is_searching()) << n;
     ASSERT_TRUE(finder.film()) << n;
@@ -314,7 +314,7 @@ TEST(AreaFinder, ForgetsAPageThatHasNotScrolledForTwoSeconds) {
                 kRests = kScrolls + static_cast<int>(AreaFinder::kRests_ns / kPicture_ns);
   for (int n = 0; n <= kRests + 1; ++n) {
     picture.fill([&](double x, double y) { return disc(n, x, y); });
-    finder.look(picture.view(), n * kPicture_ns, n == kScrolls - 1 || n == kScrolls);
+    finder.observe(picture.view(), n * kPicture_ns, n == kScrolls - 1 || n == kScrolls);
     EXPECT_EQ(finder.is_page(), n >= kScrolls - 1 && n < kRests) << n;
     EXPECT_FALSE(finder.area()) << n;
   }

@@ -121,8 +121,8 @@ bool border_has_moved(const BlockField& field, const PreviousFrame& past,
   return all > left_out && moved - rest > kMoreThanRest * all;
 }
 
-double share_border(const BlockField& field, const PreviousFrame& past,
-                    const std::vector<MotionModel>& models, std::vector<double>& shares) {
+double divide_border(const BlockField& field, const PreviousFrame& past,
+                     const std::vector<MotionModel>& models, std::vector<double>& shares) {
   const double clearly = clearly_unequal(field);
   const BlockGrid& grid = field.grid();
   const bool moves = models.front().kind != ModelKind::kStill;

@@ -38,7 +38,7 @@ constexpr size_t kMaxModels = 4;
 /// Graphics do not count if the first model moves. Returns the fraction of the blocks that count.
 /// With a single model, these are the blocks that it does not explain, because a block always fits
 /// the motion that was found for it.
-double share_border(const BlockField& field, const PreviousFrame& past,
-                    const std::vector<MotionModel>& models, std::vector<double>& shares);
+double divide_border(const BlockField& field, const PreviousFrame& past,
+                     const std::vector<MotionModel>& models, std::vector<double>& shares);
 
 }  // namespace spidar

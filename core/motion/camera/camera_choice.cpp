@@ -179,7 +179,7 @@ void CameraChoice::add_rivals(const BlockField& field, const PreviousFrame& past
 /// much.
 const MotionModel* CameraChoice::best_rival(const BlockField& field, const PreviousFrame& past,
                                             const Background& chosen, bool was_rival) {
-  share_border(field, past, models_, shares_);
+  divide_border(field, past, models_, shares_);
   const Eigen::Vector2d size_px = rival_votes_.size_px;
   const auto most = std::max_element(shares_.begin(), shares_.end());
   const MotionModel& best = models_[static_cast<size_t>(most - shares_.begin())];
@@ -199,7 +199,7 @@ void CameraChoice::prefer_rival(const BlockField& field, const PreviousFrame& pa
                                 Background& chosen) {
   const bool was_rival = std::exchange(is_rival_, false);
   models_.assign(1, chosen.model);
-  if (share_border(field, past, models_, shares_) < kDoubt) return;
+  if (divide_border(field, past, models_, shares_) < kDoubt) return;
   collect_votes(field, past, rival_votes_);
   add_rivals(field, past, chosen);
   if (models_.size() == 1) return;
