@@ -11,13 +11,15 @@
 namespace spidar {
 namespace {
 
-/// After a motion of a whole pixel, the second step removes the error that the first one leaves.
+/// Number of steps. After a motion of a whole pixel, the second step removes the error that the
+/// first one leaves.
 constexpr int kSteps = 2;
-/// The minimum of the smaller eigenvalue of a window's structure tensor, per pixel, (grey / px)².
-/// With less, noise of two grey levels moves the window by more than a fifth of a pixel.
+/// The texture that a window must have: the smaller eigenvalue of its structure tensor, per pixel,
+/// (grey / px)². With less, noise of two grey levels moves the window by more than a fifth of a
+/// pixel.
 constexpr float kMinTexture = 0.2f;
-/// The largest mean squared difference with which a window shows the same object, as a fraction of
-/// its variance: a window on the rim of an object shows the background, too, and is left out.
+/// The largest mean squared difference between a window and its match, as a fraction of its
+/// variance. A window on the rim of an object shows the background, too, and exceeds this.
 constexpr float kMaxResidual = 0.05f;
 
 /// Reads a square of the frame whose upper left pixel is (`left`, `top`). Returns false where the
@@ -33,7 +35,8 @@ bool read_square(const ImageView& frame, int left, int top, int side, std::vecto
   return true;
 }
 
-/// The block at a position relative to the centre of the field's picture, or the nearest one.
+/// The block that contains a position, or the nearest one. The position is relative to the centre
+/// of the field's picture.
 size_t block_at(const BlockField& field, const Eigen::Vector2d& at_px) {
   const PaddedImage& picture = field.picture();
   return field.grid().block_at(at_px + Eigen::Vector2d(picture.width(), picture.height()) / 2);
@@ -98,7 +101,6 @@ void FineWindows::store_one(const ImageView& frame, const BlockField& field,
 void FineWindows::store(const ImageView& frame, const BlockField& field,
                         const FieldPosition& position, const std::vector<size_t>& blocks) {
   windows_.clear();
-  // Of many blocks, only every n-th is used.
   const size_t every = 1 + blocks.size() / (kMax + 1);
   for (size_t i = 0; i < blocks.size() && windows_.size() < kMax; i += every) {
     store_one(frame, field, position, blocks[i]);
@@ -137,11 +139,11 @@ bool FineWindows::step(const Template& window, const Eigen::Vector2f& offset_px,
   return true;
 }
 
-/// Finds a window in `frame`. `moved_px` is the motion of its block on entry and that of the window
-/// on return, px of the frame. Returns false if the window is lost.
+/// Finds a window in `frame`. On entry `moved_px` is the motion of its block, on return that of the
+/// window, px of the frame. Returns false if the window is lost.
 bool FineWindows::match(const ImageView& frame, const Template& window, Eigen::Vector2d& moved_px) {
   const Eigen::Vector2d whole_px(std::round(moved_px.x()), std::round(moved_px.y()));
-  // Reject a motion that is not finite, or leads outside of any frame.
+  // Reject a motion that is not finite, or leads far outside the frame.
   if (!(whole_px.cwiseAbs().maxCoeff() < frame.width + frame.height)) return false;
   const int left = window.left_px + static_cast<int>(whole_px.x()) - kReach_px;
   const int top = window.top_px + static_cast<int>(whole_px.y()) - kReach_px;
@@ -166,7 +168,7 @@ const std::vector<FineMotion>& FineWindows::find(const ImageView& frame, const B
   };
   for (const Template& window : windows_) {
     // The motion of the block at the window's old position gives a first estimate of the new
-    // position, and the block at that position gives the motion.
+    // position. The block at this estimate then gives the motion.
     const Eigen::Vector2d corner_px(window.left_px, window.top_px);
     const Eigen::Vector2d middle_px = corner_px + Eigen::Vector2d::Constant((kSide_px - 1) / 2.0);
     const Eigen::Vector2d from_px = (middle_px - position.centre_px) / position.scale;

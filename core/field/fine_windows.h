@@ -23,7 +23,7 @@ struct FieldPosition {
 
 /// The motion of a window. Positions are relative to the centre of the field's picture, in its px.
 struct FineMotion {
-  size_t block = 0;  ///< where the window is now
+  size_t block = 0;  ///< the block in which the window is now
   Eigen::Vector2d from_px;
   Eigen::Vector2d moved_px;
 };
@@ -31,14 +31,15 @@ struct FineMotion {
 /// Measures in the frame itself how parts of some blocks move. Keeps a small window of the frame
 /// for each of these blocks, and finds it in the next frame by Gauss–Newton steps from the motion
 /// of its block (inverse compositional: Baker and Matthews: Lucas–Kanade 20 years on, IJCV 2004).
-/// The motion of a window is more accurate than that of a block, which is right to a tenth of a
-/// pixel of the reduced picture: the frame has more pixels, and a second step removes the error of
-/// the first one. Allocates only for the first frame.
+/// The motion of a block is right to a tenth of a pixel of the reduced picture. That of a window is
+/// more accurate: the frame has more pixels, and a second step removes the error of the first.
+/// Allocates only for the first frame.
 class FineWindows {
  public:
   FineWindows();
 
-  /// Keeps windows of `frame` for these blocks of `field`, or for some of them if they are many.
+  /// Keeps windows of `frame` for these blocks of `field`, or for some of them if there are more
+  /// than kMax.
   void store(const ImageView& frame, const BlockField& field, const FieldPosition& position,
              const std::vector<size_t>& blocks);
 
@@ -52,7 +53,8 @@ class FineWindows {
   static constexpr size_t kMax = 48;
 
  private:
-  /// Side of a window, px of the frame. It covers a block of a small frame, less of a large one.
+  /// Side of a window, px of the frame: a whole block of a small frame, a part of one of a large
+  /// frame.
   static constexpr int kSide_px = kBlock_px;
   /// The largest distance of a window from the position predicted by its block, px of the frame.
   static constexpr int kReach_px = 2;
@@ -63,7 +65,7 @@ class FineWindows {
     int left_px = 0;
     int top_px = 0;
     std::array<float, kPixels> grey;
-    std::array<float, kPixels> x_slope;  ///< grey levels a pixel
+    std::array<float, kPixels> x_slope;  ///< grey levels per pixel
     std::array<float, kPixels> y_slope;
     Eigen::Matrix2f structure;  ///< Σ g gᵀ of the slopes without their means
     float variance = 0;         ///< of the grey levels

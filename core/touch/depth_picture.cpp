@@ -115,7 +115,8 @@ void DepthPicture::read_row(const ImageView& depth, int y, bool has_holes,
   }
 }
 
-/// The lower and the upper percentile, rounded to whole samples. Some cell must not be a hole.
+/// The lower and the upper percentile, rounded to whole samples. At least one cell must not be a
+/// hole.
 std::pair<double, double> DepthPicture::percentiles() noexcept {
   sorted_.clear();
   std::copy_if(cells_.begin(), cells_.end(), std::back_inserter(sorted_),

@@ -27,7 +27,7 @@ double EnergyBudget::allowed_force_N(const Eigen::Vector3d& direction, const For
   const auto velocity_m_s = [this](size_t age) -> Eigen::Vector3d {
     return age < velocity_m_s_.size() ? velocity_m_s_[age] : Eigen::Vector3d::Zero();
   };
-  // Half a tick less than kSlope ticks, so that rounding does not add another one.
+  // Half a tick less than kSlope ticks, because a rounding error must not add a tick.
   const double least_s = (kSlope - 0.5) * path.tick_s;
   double passed_s = 0;
   size_t since = 0;
@@ -37,11 +37,13 @@ double EnergyBudget::allowed_force_N(const Eigen::Vector3d& direction, const For
   passed_s = std::max(passed_s, least_s);
   const Eigen::Vector3d gained_m_s = velocity_m_s(0) - velocity_m_s(since);
   const Eigen::Vector3d then_m_s = velocity_m_s(0) + gained_m_s * (path.velocity_lag_s / passed_s);
+  // The work of the last tick is not in left_J_ yet.
   const double left_J = std::max(0.0, left_J_ - dt_s * mean_.force_N.dot(then_m_s));
-  // The delivered force may help a motion against which the wanted one acts.
+  // The delivered force may drive a motion that the wanted force brakes.
   const double out_m_s = then_m_s.dot(direction);
   const double out_if_given_m_s = given_ ? then_m_s.dot(*given_) : out_m_s;
   const double most_m_s = std::max(out_m_s, out_if_given_m_s);
+  // Solves v J + J² / (2 m) = energy for the impulse J, and J for the force F.
   const double mass_kg = path.least_mass_kg;
   const double whole_Ns =
       mass_kg * (std::sqrt(most_m_s * most_m_s + 2 * left_J / mass_kg) - most_m_s);
@@ -52,9 +54,9 @@ double EnergyBudget::allowed_force_N(const Eigen::Vector3d& direction, const For
   return slew_N_s * (std::sqrt(tick_s * tick_s + 2 * impulse_Ns / slew_N_s) - tick_s);
 }
 
-/// When little energy is left, the bound follows the noise of the velocity. A slower rise than that
-/// of the slew limit would be smoother, but a force that is too low absorbs too little energy while
-/// the grip moves in, and stays low.
+/// When little energy is left, the bound follows the noise of the velocity. The force would be
+/// smoother if it rose more slowly than the slew limit, but it would then absorb too little energy
+/// while the grip moves in, and stay low.
 double EnergyBudget::allowed_fraction(const Eigen::Vector3d& wanted_N, const ForcePath& path,
                                       double dt_s) noexcept {
   constexpr double kUnbounded_N = std::numeric_limits<double>::infinity();
@@ -88,6 +90,7 @@ void EnergyBudget::command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3
   apply_lag({limited_N_ - beside_N_, Eigen::Vector3d::Zero()});
 }
 
+/// Computes the force on the grip when the drives follow `own` from begun_ with their lag.
 void EnergyBudget::apply_lag(const Wrench& own) noexcept {
   const Wrench behind = begun_ - own;
   mean_ = own + (1 - fading_) * lag_ticks_ * behind;

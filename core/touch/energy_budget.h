@@ -12,28 +12,28 @@
 
 namespace spidar::touch {
 
-/// Properties of the path from a requested force to the motion of the grip.
+/// The path from a wanted force to the motion of the grip.
 struct ForcePath {
   double max_force_N = std::numeric_limits<double>::infinity();  ///< of the safety chain
   double max_slew_N_s = 300;                                     ///< of the safety chain
   double lag_s = 0.002;             ///< first-order lag of the drive; ≥ 0
-  double velocity_lag_s = 0.00615;  ///< from a measured velocity to the resulting force
+  double velocity_lag_s = 0.00615;  ///< from a velocity of the grip to the force that follows it
   double least_mass_kg = 0.05;      ///< of the grip and what moves with it
-  /// How long a force is held until the next one. The next tick may be late.
+  /// How long the drives hold a force, unless the next tick is late.
   double tick_s = 0.001;
   double longest_tick_s = 0.002;  ///< the longest tick that counts in the safety chain's slew limit
 };
 
-/// Limits the energy that a contact returns to the hand: tracks the energy that the contact has
-/// absorbed, and bounds the force so that the contact returns no more. It is a passivity observer
+/// Limits the energy that a contact returns to the hand: counts the energy that the contact has
+/// absorbed, and bounds the force so that the contact returns no more. This is a passivity observer
 /// and controller (B. Hannaford and J.-H. Ryu, Time-domain passivity control of haptic interfaces,
-/// IEEE Transactions on Robotics and Automation 18, 2002) that predicts. Observing the past is not
-/// enough: a force with limited slew and a lag still pushes after the energy is spent.
+/// IEEE Transactions on Robotics and Automation 18, 2002) with a prediction. An observer of the
+/// past is not enough: a force with limited slew and a lag still pushes after the energy is spent.
 ///
-/// A force F that is reduced from the next tick on at the slew limit still delivers the impulse J =
-/// lag · (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v,
-/// this impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the
-/// energy that is left.
+/// A force F that falls at the slew limit from the next tick on still delivers the impulse J = lag
+/// · (force on the grip) + F · tick + F² / (2 · slew). On a mass m that moves outwards at v, this
+/// impulse does the work v J + J² / (2 m). The bound is the F for which this work equals the energy
+/// that is left.
 ///
 /// `dt_s` is the time since the last tick; it is long for a late tick, and short for the next one.
 class EnergyBudget {
@@ -54,46 +54,46 @@ class EnergyBudget {
   double allowed_force_N(const Eigen::Vector3d& direction, const ForcePath& path,
                          double dt_s) const noexcept;
 
-  /// Sets the force of this tick, before the limits of the path. `beside_N`, a force that does not
-  /// come from the contact, shares these limits. The contact's part is the limited sum minus what
-  /// would pass without the contact.
+  /// Sets the force of this tick, before the limits of the path. `beside_N` is a force that does
+  /// not come from the contact, and shares the limits. The contact's part is the limited sum of
+  /// both, minus the limited `beside_N` alone.
   void command(const Eigen::Vector3d& wanted_N, const Eigen::Vector3d& beside_N,
                const ForcePath& path, double dt_s) noexcept;
 
-  /// Corrects the force of this tick: the device gives `given`, which may be less, point elsewhere
-  /// and have a torque. Without this call, and beside another force, whose part is unknown, the
-  /// device is assumed to give the command. The grip has turned by `turn_rad` since the last
-  /// exchange.
+  /// Replaces the force of this tick by the wrench that the device delivers, which may be smaller,
+  /// point elsewhere and have a torque. The delivered force is taken to be the commanded one
+  /// without this call, and also beside another force, because the contact's part is then unknown.
+  /// `turn_rad` is the rotation of the grip since the last exchange.
   void set_delivered(const Wrench& given, const Eigen::Vector3d& turn_rad) noexcept;
 
-  /// Estimated energy absorbed from the hand in this contact and not yet returned.
+  /// Estimate of the energy that this contact has absorbed from the hand and not yet returned.
   double left_J() const noexcept { return left_J_; }
   const Eigen::Vector3d& force_N() const noexcept { return acting_.force_N; }
 
  private:
   void apply_lag(const Wrench& own) noexcept;
 
-  // The number of ticks, if they are on time, over which the acceleration is measured.
+  // The number of ticks, each on time, over which the acceleration is measured.
   static constexpr int kSlope = 3;
 
   double left_J_ = 0;
-  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: it was not bounded
+  double bounded_N_ = std::numeric_limits<double>::infinity();  ///< infinite: not bounded
   // The direction of a smaller force is uncertain: the steps of a D/A converter are 5 mN.
   static constexpr double kKnownDirection_N = 0.05;
-  // Short ticks follow a late one, so that more of them fit into the time of kSlope.
+  // After a late tick come short ones, so more of them fit into the time of kSlope.
   static constexpr size_t kKept = 16;
   History<Eigen::Vector3d, kKept + 1> velocity_m_s_;
-  History<double, kKept> dt_s_;  ///< of the last ticks, in which the velocity changed
-  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact + beside, limited
+  History<double, kKept> dt_s_;                          ///< durations of the last ticks
+  Eigen::Vector3d limited_N_ = Eigen::Vector3d::Zero();  ///< contact and beside_N, limited
   Eigen::Vector3d beside_N_ = Eigen::Vector3d::Zero();   ///< alone, with the same limits
-  double fading_ = 0;     ///< the part of an earlier force that remains in the tick
-  double lag_ticks_ = 0;  ///< the lag, in ticks
-  Wrench begun_;          ///< on the grip, when the last tick began
+  double fading_ = 0;     ///< fraction of the earlier force left after a tick
+  double lag_ticks_ = 0;  ///< lag / tick
+  Wrench begun_;          ///< on the grip, at the beginning of the last tick
   Wrench acting_;         ///< on the grip, at the end of the last tick
-  Wrench mean_;           ///< in the last tick, not yet measured
-  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();   ///< in the tick before
+  Wrench mean_;           ///< on the grip, mean over the last tick
+  Eigen::Vector3d before_N_ = Eigen::Vector3d::Zero();   ///< mean force of the tick before
   Eigen::Vector3d turned_Nm_ = Eigen::Vector3d::Zero();  ///< mean_.torque_Nm of the tick before
-  std::optional<Eigen::Vector3d> given_;  ///< force on the grip for each newton of the contact's
+  std::optional<Eigen::Vector3d> given_;                 ///< delivered force per newton commanded
 };
 
 }  // namespace spidar::touch

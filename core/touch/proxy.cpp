@@ -11,8 +11,8 @@ namespace {
 
 /// Largest slope of a relief in any direction: kMaxSlope along both axes.
 const double kSteepest = ReliefBuilder::kMaxSlope * std::sqrt(2.0);
-/// A sliding proxy sticks again when its tangential distance falls below this fraction of the
-/// dynamic limit, as happens when the hand reverses.
+/// A sliding proxy sticks again when its tangential distance to the grip falls below this fraction
+/// of the distance at which it slides, as when the hand reverses.
 constexpr double kSticksAgain = 0.6;
 /// Shorter steps are skipped: at 500 N/m, 1 nm corresponds to 0.5 µN.
 constexpr double kMinStep_m = 1e-9;
@@ -63,8 +63,8 @@ void Proxy::carry(const MovingRelief& surface, double shift_m, const Eigen::Vect
   normal_ = at.normal();
 }
 
-/// Starts contact if the grip is below the surface. Depth that the grip's motion since the last
-/// tick does not explain counts as a jump of the surface.
+/// Starts contact if the grip is below the surface. The part of the depth that the motion of the
+/// grip since the last tick does not explain counts as a jump of the surface.
 void Proxy::enter(const MovingRelief& surface, double shift_m, const Eigen::Vector3d& grip_m,
                   double dt_s) noexcept {
   const SurfacePoint at = surface.at(grip_m.head<2>());
@@ -97,7 +97,7 @@ void Proxy::walk(const MovingRelief& surface, double friction,
     }
     const Eigen::Vector3d along_m = to_grip_m + depth_m * normal_;
     const double distance_m = along_m.norm();
-    double held_m = 0;  // by friction
+    double held_m = 0;  // distance at which friction holds a sliding proxy
     if (depth_m > 0 && friction > 0) {
       held_m = kKineticFriction * friction * depth_m;
       if (sliding_ && distance_m < kSticksAgain * held_m) sliding_ = false;

@@ -10,15 +10,16 @@
 
 namespace spidar::touch {
 
-/// Interpolates between two reliefs with fraction s and displacement u:
+/// Interpolates between two reliefs at the fraction s of the time between them, while the picture
+/// moves by u:
 /// h(p) = (1 − s) before(p − s u) + s after(p + (1 − s) u).
-/// An object that moves by u from one frame to the next keeps its shape;
-/// plain cross-fading would show it twice. Does not own the fields.
+/// An object that moves by u keeps its shape; plain cross-fading would show it twice. The reliefs
+/// belong to the caller.
 struct MovingRelief {
-  const HeightField* before = nullptr;  ///< must not be null
-  const HeightField* after = nullptr;   ///< null: only `before`, which is static
-  double fraction = 0;                  ///< of `after`, 0 … 1
-  Eigen::Vector2d displacement_m = Eigen::Vector2d::Zero();
+  const HeightField* before = nullptr;                       ///< must not be null
+  const HeightField* after = nullptr;                        ///< null: `before` alone, at rest
+  double fraction = 0;                                       ///< s, 0 … 1
+  Eigen::Vector2d displacement_m = Eigen::Vector2d::Zero();  ///< u
 
   SurfacePoint at(const Eigen::Vector2d& position_m) const noexcept {
     if (after == nullptr) return before->at(position_m.x(), position_m.y());
@@ -32,28 +33,28 @@ struct MovingRelief {
   double cell_m() const noexcept { return std::min(before->cell_x_m(), before->cell_y_m()); }
 };
 
-/// A point that stays on the surface while the grip is below it, as close to the grip as friction
-/// allows (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex graphical
-/// environments, SIGGRAPH 1997). A spring between the two generates the contact force.
+/// A point that stays on the surface while the grip is below the surface, and as close to the grip
+/// as friction allows (after D. Ruspini, K. Kolarov and O. Khatib, The haptic display of complex
+/// graphical environments, SIGGRAPH 1997). A spring from the proxy to the grip generates the
+/// contact force.
 ///
-/// A step of the proxy never lengthens that spring: a step along the tangent plane is accepted only
-/// if it ends closer to the grip; otherwise half the step is tried. Steps therefore store no
-/// energy, unlike in methods that only follow the tangent plane, in which the proxy climbs at
-/// creases.
+/// A step of the proxy never lengthens that spring, and therefore stores no energy: a step along
+/// the tangent plane is accepted only if it ends closer to the grip; otherwise half the step is
+/// tried. If all steps along the tangent plane were accepted, the proxy would climb at creases.
 ///
-/// A surface can jump because of a cut, because playback starts with the grip below the surface, or
-/// because the surface moves faster than kFastest_m_s. The surface is then shifted to the grip and
-/// moves to its true height at kRise_m_s, so cuts need not be signalled.
+/// The surface jumps at a cut, when playback starts with the grip below the surface, and when the
+/// surface moves faster than kFastest_m_s. It is then shifted to the grip and moves to its true
+/// height at kRise_m_s, so nobody has to announce a cut.
 class Proxy {
  public:
   /// The coefficient of kinetic friction of most surfaces, as a fraction of the static one.
   static constexpr double kKineticFriction = 0.8;
-  static constexpr double kFastest_m_s = 0.2;  ///< of a surface in contact
-  static constexpr double kRise_m_s = 0.04;
-  /// The rise reaches kRise_m_s within 0.1 s. Starting at full speed would throw a lightly held
-  /// grip up 40 % faster.
+  static constexpr double kFastest_m_s = 0.2;  ///< largest speed of a surface in contact
+  static constexpr double kRise_m_s = 0.04;    ///< speed of a shifted surface that rises
+  /// The acceleration to kRise_m_s, which takes 0.1 s. Starting at full speed would throw a lightly
+  /// held grip up 40 % faster.
   static constexpr double kRise_m_s2 = 0.4;
-  static constexpr int kMostSteps = 8;  ///< of half a cell each, in a tick
+  static constexpr int kMostSteps = 8;  ///< per tick, each of at most half a cell
 
   /// Performs one tick, `dt_s` > 0 after the last one. `grip_m` is in the device frame. Neither
   /// allocates nor throws. A non-finite grip position ends the contact.
@@ -66,13 +67,16 @@ class Proxy {
   const Eigen::Vector3d& position_m() const noexcept { return position_m_; }
   /// Surface normal at the proxy, towards the viewer. Valid only while touching.
   const Eigen::Vector3d& normal() const noexcept { return normal_; }
-  /// How far the surface is shifted now: > 0 above its true height, < 0 below that.
+  /// The height that is now added to the surface: negative while the surface rises to its true
+  /// height, positive while it falls to it.
   double shift_m() const noexcept { return shift_m_; }
-  /// Change of the squared distance between proxy and grip in this tick that is due to the motion
-  /// of the surface: 2 / stiffness times the energy which that motion put into the spring.
+  /// The change of the squared distance between proxy and grip that the motion of the surface
+  /// causes in this tick. Half the stiffness times this is the energy which the motion puts into
+  /// the spring.
   double stretched_m2() const noexcept { return stretched_m2_; }
 
-  /// Discards all state after the pose was lost: the next position says nothing about the motion.
+  /// Ends the contact and forgets the position of the grip. Call this when the pose is lost,
+  /// because the grip may have moved anywhere when the pose is known again.
   void reset() noexcept { *this = {}; }
 
  private:

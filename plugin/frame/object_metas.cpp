@@ -34,7 +34,7 @@ void remove_ours(GstBuffer* buffer) {
                           GUINT_TO_POINTER(g_quark_from_static_string(kObjectName)));
 }
 
-/// The whole pixels of the frame that the object touches; an object may reach over the edge.
+/// The box of the object in whole pixels, without the parts outside the frame.
 ObjectBox box_of(const MovingObject& object, const PicturePart& part, int width, int height) {
   const Eigen::Vector2d middle_px =
       Eigen::Vector2d(part.x + 0.5 * part.width, part.y + 0.5 * part.height);
@@ -59,8 +59,8 @@ GstStructure* motion_of_object(const MovingObject& object, bool felt, int width,
 
 #ifdef SPIDAR_HAS_ANALYTICS
 
-/// Reads detections (GstAnalyticsODMtd) of other elements. Those of spidarmotion are also regions,
-/// and are left out.
+/// Reads the detections (GstAnalyticsODMtd) that other elements have attached. Leaves out those of
+/// spidarmotion, which attaches the same objects as regions, too.
 std::vector<ObjectBox> read_detections(GstBuffer* buffer) {
   std::vector<ObjectBox> boxes;
   GstAnalyticsRelationMeta* const meta = gst_buffer_get_analytics_relation_meta(buffer);
@@ -84,14 +84,13 @@ std::vector<ObjectBox> read_detections(GstBuffer* buffer) {
   return boxes;
 }
 
-/// Attaches a box to `buffer`, which is writable, as a detection that is related to a track
-/// (GstAnalyticsTrackingMtd) with the number `id`. The attached box cannot be removed again.
+/// Attaches a box to `buffer`, which is writable, as a detection with a relation to a
+/// GstAnalyticsTrackingMtd of the number `id`. An attached detection cannot be removed again.
 void attach_detection(GstBuffer* buffer, const ObjectBox& box, uint32_t id) {
   GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer);
   if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer);
-  // The time at which an object was first seen is not known here.
   GstAnalyticsMtd detection, track;
-  constexpr gfloat kConfidence = 1;  // an object has moved for some frames
+  constexpr gfloat kConfidence = 1;  // only an object that has moved for some frames is here
   if (gst_analytics_relation_meta_add_od_mtd(
           meta, g_quark_from_string(box.name.c_str()), static_cast<gint>(box.x),
           static_cast<gint>(box.y), static_cast<gint>(box.width), static_cast<gint>(box.height),

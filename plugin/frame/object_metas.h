@@ -17,8 +17,7 @@
 
 namespace spidar {
 
-/// A box of an object that another project's element attaches to a frame, in pixels of that frame;
-/// the box may lie partly outside.
+/// The box of an object, in pixels of its frame; the box may lie partly outside the frame.
 struct ObjectBox {
   std::string name;  ///< what the box contains, such as "face"
   double x, y, width, height;
@@ -26,16 +25,16 @@ struct ObjectBox {
 
 constexpr const char* kObjectName = "spidar-object";
 
-/// Reads the regions (GstVideoRegionOfInterestMeta) and detections of a buffer; those without a
-/// size are left out. Their ids number the regions of one frame and identify nothing in the next.
+/// Reads the regions (GstVideoRegionOfInterestMeta) and the detections of a buffer, except those
+/// without a size. Their ids number the regions of one frame and identify nothing in the next.
 std::vector<ObjectBox> read_object_metas(GstBuffer* buffer);
 
 /// Attaches the visible objects to `buffer`, which must be writable, as regions and as detections.
 /// Replaces the regions of another spidarmotion.
 void attach_object_metas(GstBuffer* buffer, const DrawnFrame& report, int width, int height);
 
-/// The boxes of a frame, in its shown picture; null when there are none. The picture of a `packed`
-/// frame is one half of it.
+/// The boxes of a frame as fractions of the displayed picture; null when there are none. If the
+/// frame is `packed`, that picture is one half of it.
 std::shared_ptr<const std::vector<PictureBox>> boxes_of(const GstVideoFrame& frame,
                                                         std::optional<touch::DepthLayout> packed,
                                                         const Orientation& turn);

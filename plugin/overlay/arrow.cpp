@@ -13,11 +13,11 @@ constexpr double kShortest_px = 1.0;  ///< shorter arrows are drawn as dots
 constexpr double kHeadFraction = 0.5;
 constexpr double kHeadWidths = 4.0;
 
-constexpr double kThin_px = 1.5, kBold_px = 2.5, kFelt_px = 6;  // in a picture 480 lines high
-constexpr double kPale = 0.45;
-constexpr double kFeltLength = 0.2;
+constexpr double kThin_px = 1.5, kBold_px = 2.5, kFelt_px = 6;  // widths at 480 lines
+constexpr double kPale = 0.45;       ///< saturation of the background's arrows
+constexpr double kFeltLength = 0.2;  ///< of the arrow of max_force_N / height of the picture
 
-constexpr double kNarrowest_px = 1.5;
+constexpr double kNarrowest_px = 1.5;  ///< of a line in a small picture
 
 double width_px(double at_480, const ArrowStyle& style) {
   return std::max(kNarrowest_px, at_480 * style.height_px / kReferenceHeight_px);

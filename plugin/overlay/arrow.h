@@ -24,7 +24,7 @@ struct Rgb {
 constexpr Rgb kWhite{255, 255, 255};
 constexpr Rgb kBlack{0, 0, 0};
 
-/// A line with a head, which shows motion in the video and in the window.
+/// A line with a head that shows motion or force, in the video and in the window.
 struct Arrow {
   Eigen::Vector2d tail_px = Eigen::Vector2d::Zero();
   Eigen::Vector2d tip_px = Eigen::Vector2d::Zero();
@@ -32,8 +32,8 @@ struct Arrow {
   Rgb color;
 };
 
-/// The triangle at the end of an arrow, whose line ends at neck_px(). Nothing for an arrow without
-/// length, which is drawn as a dot.
+/// The head of an arrow, a triangle. The line of the arrow ends at neck_px(). An arrow without
+/// length has no head, and is drawn as a dot.
 struct ArrowHead {
   std::array<Eigen::Vector2d, 3> corners_px;  ///< the second one is the tip
   Eigen::Vector2d neck_px() const { return (corners_px[0] + corners_px[2]) / 2; }
@@ -52,7 +52,7 @@ struct ArrowStyle {
   Orientation turn;                                     ///< of the drawing, before it is shown
 };
 
-/// Shaft width of the force's arrow.
+/// Width of the line of the force's arrow, px.
 double felt_width_px(const ArrowStyle& style);
 
 /// One arrow per point with its tail at `from`: bold for objects, pale for the background. `at_px`

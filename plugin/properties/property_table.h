@@ -15,7 +15,7 @@
 namespace spidar {
 
 constexpr auto kReadOnly = static_cast<GParamFlags>(G_PARAM_READABLE | G_PARAM_STATIC_STRINGS);
-/// For properties that the element reads when it begins: they can be changed in NULL only.
+/// Can be changed in NULL only, because the element reads such a property when it starts.
 constexpr auto kNull = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_STATIC_STRINGS);
 /// Can be changed in READY and below.
 constexpr auto kReady =
@@ -26,13 +26,14 @@ constexpr auto kPlaying = static_cast<GParamFlags>(G_PARAM_READWRITE | G_PARAM_S
 /// Can be changed while playing, and controlled by a GstController.
 constexpr auto kControllable = static_cast<GParamFlags>(kPlaying | GST_PARAM_CONTROLLABLE);
 
-/// Marks properties that change the force of a film's frames. The others belong to a device, a
-/// viewer or a pipeline, and change no haptic track.
+/// Marks the properties that change the force of a film's frames, and with it a haptic track. The
+/// others concern a device, a viewer or a pipeline.
 inline GQuark analysis_mark() {
   return g_quark_from_static_string("spidar-analysis");
 }
 
-/// Accesses the member of the settings that stores a property: KEPT_IN(analyzer.axes.depth).
+/// A function that returns the member of the settings in which a property is stored:
+/// KEPT_IN(analyzer.axes.depth).
 #define KEPT_IN(member)         \
   [](auto& settings) -> auto& { \
     return settings.member;     \
@@ -45,12 +46,12 @@ struct Choice {
   const char* nick;
 };
 
-/// Registers the type the first time; several elements may share it. Only for class initialisation,
-/// which GLib runs in one thread at a time.
+/// Returns the type `name`, which the first call registers; several elements may share it. Only for
+/// class initialisation, which GLib runs in one thread at a time.
 template <typename Enum>
 GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
   if (const GType type = g_type_from_name(name)) return type;
-  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type keeps these
+  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type owns them
   for (size_t i = 0; i < choices.size(); ++i) {
     values[i] = {static_cast<int>(choices[i].value), choices[i].meaning, choices[i].nick};
   }
@@ -59,18 +60,18 @@ GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
   return type;
 }
 
-/// The names of a row are those of its GParamSpec: name, nick and blurb, which are not copied.
+/// The names of a property in its GParamSpec, which does not copy them.
 struct PropertyNames {
   const char* name;
   const char* nick;
   const char* blurb;
 };
 
-/// A row of the table. `Settings` stores the properties of an element; a new one has the defaults.
+/// A property of an element. `Settings` stores all properties; a new one has the defaults.
 template <typename Settings>
 struct Property {
   std::function<GParamSpec*(const Settings& defaults)> spec;
-  /// Both functions are empty for a property that is not among the settings.
+  /// Both are empty for a property that is not stored in the settings.
   std::function<void(Settings&, const GValue*)> set;
   std::function<void(const Settings&, GValue*)> get;
 
@@ -130,7 +131,7 @@ struct Property {
         [=](const Settings& s, GValue* v) { g_value_set_enum(v, static_cast<int>(field(s))); }};
   }
 
-  /// A text; an empty one is NULL.
+  /// A text. The element stores NULL as an empty text, and returns NULL for it.
   template <typename Field>
   static Property text(PropertyNames n, GParamFlags flags, Field field) {
     const auto or_null = [](const std::string& s) { return s.empty() ? nullptr : s.c_str(); };
@@ -164,7 +165,7 @@ class PropertyTable {
     }
   }
 
-  /// For class initialisation. The id of a property is its position in the table, from 1 on.
+  /// For class initialisation. The id of a property is its position in the table, counted from 1.
   void install(GObjectClass* object_class) const {
     const Settings defaults;
     guint id = 0;
@@ -173,7 +174,8 @@ class PropertyTable {
     }
   }
 
-  /// Both functions return false for an id that is not a setting: `stats`, or unknown.
+  /// set() and get() return false for an id whose property is not stored in the settings, and for
+  /// an unknown id.
   bool set(Settings& settings, guint id, const GValue* value) const {
     if (id < 1 || id > rows_.size() || !rows_[id - 1].set) return false;
     rows_[id - 1].set(settings, value);
@@ -189,7 +191,7 @@ class PropertyTable {
   std::vector<Property<Settings>> rows_;
 };
 
-/// An action after a change of a property, for parts that do not read the settings.
+/// What to do when a property has changed, for parts of the element that do not read the settings.
 template <typename Element>
 struct PropertyEffect {
   const char* property;
@@ -204,14 +206,14 @@ void follow_property(const PropertyEffect<Element> (&effects)[kCount], Element* 
   }
 }
 
-/// Whether the element has already read the property. Object lock.
+/// Whether the state of the element no longer allows a change. The caller holds the object lock.
 bool is_too_late(GstElement* element, const GParamSpec* spec);
-/// Posts a warning that such a setting stays as it was.
+/// Posts a warning that the property keeps its value because the change came too late.
 void warn_of_late(GstElement* element, const GParamSpec* spec);
 
-/// GObjectClass::set_property of an element whose `state` has `settings`, under its object lock,
-/// and the mutex `setting`, so that the effects of settings come in their order. A setting that
-/// comes too late is refused with a warning.
+/// Implements GObjectClass::set_property. `element->state` has `settings`, which the object lock
+/// protects, and the mutex `setting`, which keeps the effects of several calls in the order of the
+/// calls. A change that comes too late is refused with a warning.
 template <typename Settings, typename Element, size_t kCount>
 void set_property(const PropertyTable<Settings>& table, Element* element,
                   const PropertyEffect<Element> (&effects)[kCount], guint id, const GValue* value,
@@ -232,7 +234,7 @@ void set_property(const PropertyTable<Settings>& table, Element* element,
   }
 }
 
-/// GObjectClass::get_property of such an element, with `stats` for the statistics.
+/// Implements GObjectClass::get_property. `stats` makes the structure of a statistics property.
 template <typename Settings, typename Element>
 void get_property(const PropertyTable<Settings>& table, Element* element,
                   GstStructure* (*stats)(Element*), guint id, GValue* value, GParamSpec* spec) {

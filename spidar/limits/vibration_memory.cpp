@@ -28,18 +28,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How often the vibration is stored. In a second, it empties 1/kEmptied_s of the rest at most.
+/// How often the vibration is stored. In this time the vibration takes at most 1/kEmptied_s of what
+/// is left in the store.
 constexpr std::chrono::seconds kEvery{1};
-/// Smaller amounts are not stored yet: a thousandth of the store. A film that hardly vibrates does
-/// not keep a disk awake.
+/// Smaller amounts, below a thousandth of the store, are stored later: a film that hardly vibrates
+/// must not keep a disk awake.
 constexpr auto kWorthKeeping_ns = static_cast<int64_t>(1e9 / 1000 * VibrationBudget::kStore_m2_s3 /
                                                        VibrationBudget::kRefill_m2_s4);
-/// The longest time until a store is full again: that of twice the store.
+/// The longest time until the store is full again: the time that refilling twice the store takes.
 constexpr int64_t kMax_ns = 4 * VibrationMemory::kUnknown_ns;
 
 constexpr size_t kMaxText = 200;
 
-/// For root, no file counts as another's: root may write all, and sudo may keep a user's home.
+/// For root, no file counts as another user's: root may write all files, and sudo may keep a user's
+/// home.
 bool is_of_another(const struct stat& status) {
   return status.st_uid != geteuid() && geteuid() != 0;
 }
@@ -48,9 +50,8 @@ bool is_of_another(const struct stat& status) {
 constexpr uid_t kUnmapped = 65534;
 
 /// The first folder above the file in which others may remove or rename a part of the path, or
-/// whose permissions are unknown; empty if there is none. In a sticky folder, everybody may do so
-/// with their own files only. A group to which this user belongs by default counts as the user's
-/// own.
+/// whose permissions are unknown; empty if there is none. In a sticky folder, users may remove and
+/// rename only their own files. This user's default group counts as the user.
 std::string folder_of_others(const fs::path& file) {
   std::error_code error;
   fs::path folder = fs::canonical(file, error);

@@ -20,14 +20,15 @@ namespace {
 constexpr double kFade_s = DelaySettings::kFade_s;
 constexpr double kBegin_s = kFade_s + DelaySettings::kSettle_s;
 constexpr double kRound_s = DelaySettings::kRound_s;
-/// Wrenches are scheduled this long before they are due, so that none is late and faded in.
+/// Wrenches are scheduled this long before they are due: the loop would fade a late one in.
 constexpr int64_t kAhead_ns = 20 * kTick_ns;
 /// How long a wrench lasts if the next one is late; then the loop ramps to zero.
 constexpr int64_t kHold_ns = 10 * kTick_ns;
-constexpr double kOpening_s = 2;
-constexpr double kLongestGap_s = 0.01;  ///< a longer pause makes a period unusable
+constexpr double kOpening_s = 2;        ///< in which the pose must become known
+constexpr double kLongestGap_s = 0.01;  ///< a period with a longer pause is unusable
 
-/// Rises from 0 to 1 and falls back to 0 in a period, with zero slope at both ends.
+/// Rises from 0 to 1 at the beginning of a period and falls to 0 at its end, without a step in the
+/// slope.
 double envelope(double time_s) {
   const double way = std::clamp(std::min(time_s, kRound_s - time_s) / kFade_s, 0.0, 1.0);
   return way * way * (3 - 2 * way);
@@ -59,7 +60,7 @@ class DelayRun {
     return limits;
   }
 
-  /// Returns false when interrupted, or when the device is lost.
+  /// Returns false when the user interrupts the test, or when the device is lost.
   bool tick() {
     if (!pace_()) {
       result_.complete = false;
@@ -71,7 +72,8 @@ class DelayRun {
     while (loop_->pop_record(record_)) {
     }
     if (!loop_->lost()) return true;
-    // In such a pause the guardian has set the motors to zero.
+    // The guardian sets the motors to zero when this process is suspended. The test then opens the
+    // device again and goes on.
     const bool was_suspended = device_.health().last_fault == LinkFault::kSuspended;
     if (was_suspended && ++reopened_ <= settings_.most_periods() && loop_->reopen()) return true;
     return fail_by_device(loss_text(device_.name(), device_.health().last_fault, late_ns));
@@ -87,7 +89,7 @@ class DelayRun {
     return fail(error);
   }
 
-  /// Runs until the tensions are at rest and the pose is known.
+  /// Runs until each string has its minimum tension and the pose is known.
   bool settle() {
     const int64_t begin_ns = now_ns_();
     for (;;) {
@@ -155,14 +157,15 @@ class DelayRun {
     return true;
   }
 
-  /// After a pause of the machine the loop has lost the pose. The loop then ramps the force to zero
-  /// until the pose is known again. This is not a fault of the device.
+  /// Whether the loop looks for the pose again after a pause of the computer, and ramps the force
+  /// to zero until then. This is not a fault of the device.
   bool recovers() const {
     const PoseFault fault = loop_->snapshot().last.pose_fault;
     return record_.acknowledged && (fault == PoseFault::kNoReading || fault == PoseFault::kNotYet);
   }
 
-  /// Returns false to end the test: the pose is lost, a string is faulty or the grip too far away.
+  /// Returns false, which ends the test, when the pose is lost, a string is faulty, or the grip has
+  /// moved too far.
   bool is_well() {
     const LoopSnapshot now = loop_->snapshot();
     if (now.last.pose_fault == PoseFault::kFrozen) {
@@ -184,7 +187,7 @@ class DelayRun {
     return fail("the grip went further than 20 mm; hold it still and loosely, at the centre");
   }
 
-  /// Ignores an interruption, so that the release always completes.
+  /// Ends with a ramp to zero, which an interruption by the user does not cut short.
   void release() {
     loop_->begin_close();
     while (!loop_->released()) {
@@ -238,7 +241,7 @@ DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns) {
   const int64_t beyond_ns = std::max<int64_t>(answer_ns - boards::StringLink::kReplyWait_ns, 0);
   const double late_s = kTick_s * static_cast<double>((beyond_ns + kTick_ns - 1) / kTick_ns);
-  // The tolerance keeps rounding errors from adding a step.
+  // Without the 1e-6, a rounding error could round up to the next step.
   constexpr double kStep_s = 1e-4;
   LagVerdict verdict;
   verdict.stated_enough = profile.drive_lag_s >= fit.least_s + late_s;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-/// Measures the lag of a device's drives while a hand holds the grip, and judges the profile by it.
+/// Measures the lag of a device's drives while a hand holds the grip, and compares it with the lag
+/// that the profile states.
 #pragma once
 
 #include <cstdint>
@@ -20,11 +21,12 @@ struct DelaySettings {
   int periods = 12;   ///< number of one-second periods, at least kFewestPeriods
   uint32_t seed = 1;  ///< seed of the random phases
 
-  /// Fewer periods give too poor an estimate of the variance.
+  /// With fewer periods the estimate of the variance is too poor.
   static constexpr int kFewestPeriods = 6;
-  /// The time in which the force fades at both ends of a period, so that it causes no knock.
+  /// The time in which the force fades in and out at the ends of a period, so that it causes no
+  /// knock.
   static constexpr double kFade_s = 0.1;
-  /// The time after the fade-in, in which the swing of a loosely held grip decays.
+  /// The time after the fade-in that is not evaluated: the swing of a loosely held grip decays.
   static constexpr double kSettle_s = 0.4;
 
   /// The most periods that are tried in order to obtain `periods` usable ones.
@@ -54,19 +56,21 @@ struct DelayTest {
 DelayTest measure_delay(StringDevice& device, const Profile& profile, const Pace& pace,
                         const std::function<int64_t()>& now_ns, const DelaySettings& settings = {});
 
-/// The largest displacement of the grip by drift of the hand and the force together.
+/// The largest displacement of the grip that the drift of the hand and the force may cause
+/// together.
 constexpr double kFurthest_m = 0.02;
 
 struct LagVerdict {
-  /// Whether the profile states at least the measured lag, or a lag within the interval of error.
+  /// Whether the profile states a lag of at least the lower end of the confidence interval.
   bool stated_enough = false;
-  /// The value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1 ms.
+  /// A safe value for drive_lag_s in the profile: the upper end of the interval, rounded up to 0.1
+  /// ms.
   double safe_lag_s = 0;
 };
 
 /// `answer_ns` is the time within which a board answers in 99 of 100 exchanges. While playing, the
-/// loop does not wait longer than boards::StringLink::kReplyWait_ns, and the ticks that later
-/// answers cost are added to the lag.
+/// loop waits for an answer no longer than boards::StringLink::kReplyWait_ns. A later answer costs
+/// whole ticks, which are added to the lag.
 LagVerdict judge_lag(const Profile& profile, const LagFit& fit, int64_t answer_ns);
 
 }  // namespace spidar::selftest

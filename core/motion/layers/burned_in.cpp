@@ -18,8 +18,8 @@ namespace {
 /// for a film in a frame.
 constexpr double kMaxOfSide = (1 - (4 / 3.0) / (16 / 9.0)) / 2;
 
-/// Along the edge between a film and a bar, at least this fraction of the positions must change;
-/// the others may be plain or dark.
+/// At least this fraction of the edge between the film and a bar must change; the rest of the
+/// film's edge may be plain or dark.
 constexpr double kChangedFraction = 0.8;
 
 /// The rows, or the columns, of blocks as seen from one side of the picture.
@@ -27,7 +27,7 @@ struct Side {
   const BlockField& field;
   bool are_columns;
   bool from_end;  ///< line 0 is the last row or column
-  int across;     ///< blocks at both ends of a line that do not count
+  int across;     ///< number of blocks at each end of a line that do not count
 
   int lines() const { return are_columns ? field.grid().columns : field.grid().rows; }
   int positions() const { return are_columns ? field.grid().rows : field.grid().columns; }
@@ -47,7 +47,7 @@ struct Side {
     return true;
   }
 
-  /// The number of still lines from this side inwards; 0 if a bar cannot have so many.
+  /// The number of still lines from this side inwards, or 0 if there are too many for a bar.
   int still_lines() const {
     const auto most = static_cast<int>(std::lround(kMaxOfSide * lines()));
     int n = 0;
@@ -56,8 +56,7 @@ struct Side {
   }
 
   /// Marks the positions at which `line`, the first one that is not still, or the line after it has
-  /// changed: the edge of the film may be anywhere in `line`. Returns whether nearly all positions
-  /// are marked.
+  /// changed: the edge of the film may be anywhere in `line`. Returns whether enough are marked.
   bool is_edge(int line, std::vector<uint8_t>& changed) const {
     int all = 0;
     for (int position = across; position < positions() - across; ++position) {
@@ -69,16 +68,17 @@ struct Side {
   }
 };
 
-/// Saturated white and black parts of an object have no noise either, so a block that has moved
-/// needs a larger fraction of equal pixels: halfway between kExactOfGraphics and 1.
+/// The fraction of equal pixels that shows graphics in a block that has moved: halfway between
+/// kExactOfGraphics and 1, because saturated white and black parts of an object have no noise
+/// either.
 constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
-/// The search can find a motion of up to kMaxOff_px for a block with static graphics, because some
-/// of its pixels are of the film. Blocks that moved by less than half of that, px of the field's
-/// picture, count as not moved.
+/// For a block with static graphics the search can find a motion of up to kMaxOff_px, because some
+/// of its pixels are of the film. A block counts as not moved below half of that, px of the field's
+/// picture.
 constexpr float kInPlace_px = kMaxOff_px / 2;
-/// A block that has moved although this many of its pixels stay in place shows both graphics and
-/// the film behind them, and has the motion of neither. The number is a tenth of the block, which
-/// is more than a line across it.
+/// If this many pixels of a block that has moved stay in place, the block shows both graphics and
+/// the film behind them, and its motion is that of neither. The number is a tenth of the block,
+/// more than a line across it.
 constexpr int kMixedPixels = 24;
 /// A dark or still part of a picture has less noise than the rest. The noise around a block is
 /// measured in the blocks up to kAround_blocks away whose motion differs from the background's by
@@ -87,17 +87,18 @@ constexpr int kAround_blocks = 4;
 constexpr float kWithBackground_px = 1.5F;
 constexpr size_t kMinAround = 8;
 /// In a block that has moved by less than kStill_px (px of the field's picture), noise explains a
-/// residual up to kStillCost times the noise: four standard deviations of its mean over a block.
-/// The limit is so low because a camera seldom follows an object that exactly.
+/// residual of up to kStillCost times the noise: four standard deviations of its mean over a block.
+/// The limit can be so low because a camera seldom follows an object so exactly.
 constexpr float kStill_px = 0.2F;
 constexpr float kStillCost = 1.4F;
-/// The score of a block: a pair of pictures in which the block stays constant adds kGain, every
-/// other pair subtracts 1. With a score of kLasting, which takes two such pairs, the block counts
-/// as burned in without a new sign, for at most five further pairs.
+/// The score of a block: each pair of pictures in which the block is constant adds kGain, every
+/// other pair subtracts 1. While the score is at least kLasting, which takes two constant pairs,
+/// the block counts as burned in without a new sign, for at most five further pairs.
 constexpr int kGain = 3;
 constexpr int kLasting = kGain + 1;
 constexpr int kMaxScore = 3 * kGain;
-/// Constant pixels are also searched at this offset: the edge of a bar may be just outside a block.
+/// Constant pixels are also searched this far beside a block: the edge of a bar may be just
+/// outside.
 constexpr int kBesideBlock_px = kBlock_px / 4;
 
 }  // namespace
@@ -108,6 +109,8 @@ void Margins::Bars::begin(int width) {
   for (auto& positions : changed) std::fill(positions.begin(), positions.end(), uint8_t{0});
 }
 
+/// Updates the bars at two opposite sides. Known bars stay while the still lines are as many as
+/// before, to within a block; unknown ones begin again when fewer lines are still.
 void Margins::update_bars(Bars& bars, const BlockField& field, bool are_columns, int across) {
   const Side first{field, are_columns, false, across};
   const Side last{field, are_columns, true, across};
@@ -156,8 +159,8 @@ void BurnedIn::begin(const BlockField& field, bool camera_moves) {
   nearby_.reserve((2 * kAround_blocks + 1) * (2 * kAround_blocks + 1));
 }
 
-/// The median of the residuals of the blocks around one, grey²; nothing if too few of them move
-/// with the background.
+/// The median of the residuals, grey², of the blocks around `block` that move with the background.
+/// Nothing if there are too few of them.
 std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const Block& block) {
   nearby_.clear();
   field.grid().each_around(block.index, kAround_blocks, [&](size_t i) {
@@ -169,8 +172,8 @@ std::optional<float> BurnedIn::noise_around_grey2(const BlockField& field, const
   return median(nearby_.begin(), nearby_.end());
 }
 
-/// Whether the pixels of the block are explained neither by its motion nor by noise of up to twice
-/// the standard deviation.
+/// Whether neither the motion of the block nor noise of up to twice the standard deviation explains
+/// the pixels of the block.
 bool BurnedIn::is_unexplained(const BlockField& field, const Block& block, float moved_px) {
   const auto most = static_cast<float>(kMaxCost);
   const float residual = field.blocks()[block.index].residual;

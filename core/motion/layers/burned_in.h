@@ -13,23 +13,24 @@
 
 namespace spidar {
 
-/// Finds how many rows and columns of blocks at each side of the picture do not show the film:
-/// letterbox bars, a still frame around the film, or both. The blocks that their edge crosses count
-/// as bars. The edge of the film then takes the part of the picture's border.
+/// Finds how many rows and columns of blocks at each side of the picture do not show the film, but
+/// letterbox bars, a still frame around the film, or both. A block that contains the edge of the
+/// film counts as part of a bar. The outer blocks inside the bars are then the border.
 ///
-/// Lines (rows or columns) of blocks that stay the same are a bar if nearly the whole line next to
-/// them changes: the edge of a film is straight, but that of an object in front of a still wall is
-/// not. A bar must be as wide as the one on the opposite side, to within a block. A bar is known
-/// after kKnownAfterPairs such pairs of pictures, until something in it changes.
+/// Lines (rows or columns) of blocks that stay the same are a bar if nearly the whole next line
+/// changes: the edge of a film is straight, but the edge of an object in front of a still wall is
+/// not. A bar must be as wide as the one on the opposite side, to within a block. Bars are known
+/// when kKnownAfterPairs pairs of pictures have shown them, and until something in them changes.
 class Margins {
  public:
   void update(const BlockField& field);
 
-  /// Number of blocks at the left and at the right, and at the top and at the bottom.
+  /// Width of the bar at the left and of that at the right, in blocks; height of that at the top
+  /// and of that at the bottom.
   int columns() const { return columns_.is_known() ? columns_.blocks : 0; }
   int rows() const { return rows_.is_known() ? rows_.blocks : 0; }
 
-  /// Whether update() has found or lost bars: the film has another border than before.
+  /// Whether the last update() found or lost bars, so that the film has another border than before.
   bool have_changed() const { return have_changed_; }
 
   bool contains(const BlockGrid& grid, size_t block) const {
@@ -38,13 +39,14 @@ class Margins {
 
   void reset();
 
-  /// The number of pairs after which bars are known: in one or two, an object may look like a bar.
+  /// The number of pairs of pictures after which bars are known: in one or two pairs, an object may
+  /// look like a bar.
   static constexpr int kKnownAfterPairs = 3;
 
  private:
   struct Bars {
     int blocks = 0;
-    int pairs = 0;  ///< of pictures that showed the bars
+    int pairs = 0;  ///< number of pairs of pictures that showed the bars
     /// Positions along both edges that have changed since the bars were found.
     std::array<std::vector<uint8_t>, 2> changed;
 
@@ -59,17 +61,20 @@ class Margins {
   bool have_changed_ = false;
 };
 
-/// Detects graphics that are burned into the film: distinguishes blocks with burned-in graphics (a
-/// logo, a subtitle, a clock, the edge of a letterbox bar, a still inset picture) from blocks with
-/// a moving object. While the camera moves, both move relative to the background.
+/// Detects burned-in graphics, such as a logo, a subtitle, a clock, the edge of a letterbox bar or
+/// a still inset picture. While the camera moves, they move against the background, as objects do.
+/// Three signs distinguish a block with graphics from one with an object.
 ///
-/// Graphics are added after the film was shot, so their pixels stay constant and lack the film's
-/// noise, whereas the pixels of an object that the camera follows always change. The film shows
-/// through semi-transparent graphics. Their edges stay in place, but neither rest nor any motion
-/// explains their pixels as well as those of the blocks around them. An object that begins to
-/// deform looks the same, so this sign does not count where an object is known. A third sign is a
-/// block that seems to move a little against the background although some of its pixels stay where
-/// they are.
+/// First, its pixels are constant. Graphics are added after the film was shot, and lack the noise
+/// of the film; the pixels of an object that the camera follows always change.
+///
+/// Second, nothing explains its pixels as well as those of the blocks around it, neither rest nor a
+/// motion: the film shows through semi-transparent graphics, while their edges stay in place. An
+/// object that begins to deform looks the same, so this sign does not count where an object is
+/// known.
+///
+/// Third, the block seems to move a little against the background, but some of its pixels stay in
+/// place.
 ///
 /// In a film without noise, such as a cartoon, everything that stands exactly still in front of a
 /// moving background counts as burned in.
@@ -78,33 +83,33 @@ class BurnedIn {
   struct Block {
     size_t index = 0;
     Eigen::Vector2f background_px;  ///< motion of the background at this position
-    bool is_slow = false;           ///< hardly differs from the background
+    bool is_slow = false;           ///< moves nearly like the background
     bool is_expected = false;       ///< belongs to a known object
   };
 
-  /// Begins a pair of pictures. If the camera does not move (`camera_moves` is false), constant
-  /// pixels belong to the scene.
+  /// Begins a pair of pictures. Constant pixels belong to the scene if the camera does not move.
   void begin(const BlockField& field, bool camera_moves);
 
   /// Examines a block of the pair. Call this for every block that seems to move independently.
   void classify(const BlockField& field, const Block& block);
 
-  /// Ends the pair. A block that stayed constant twice keeps its status for some further pairs, in
-  /// which the digits of a clock may change, and makes unexplained blocks next to it count as
+  /// Ends the pair. A block that was constant in two pairs stays burned in for some further ones,
+  /// in which the digits of a clock may change, and makes unexplained blocks next to it count as
   /// burned in.
   void end(const BlockGrid& grid);
 
-  /// Whether a block shows burned-in graphics; false for blocks not examined in the latest pairs.
+  /// Whether a block shows burned-in graphics; false for a block that no recent pair examined.
   bool contains(size_t index) const { return index < contained_.size() && contained_[index] != 0; }
   /// contains() for all blocks, 1 or 0; empty before the first pair.
   const std::vector<uint8_t>& held() const { return contained_; }
 
-  /// Whether the graphics in a block, or next to it, have lasted. They cover the film, and the
-  /// motion behind them is unknown. Stricter than contains(), because a sign in a single pair may
+  /// Whether lasting graphics are in a block or next to it. They cover the film, and the motion
+  /// behind them is unknown. This is stricter than contains(), because a sign in a single pair may
   /// be an error.
   bool occludes(size_t index) const { return index < occluded_.size() && occluded_[index] != 0; }
 
-  /// Bars and frames around the film count as burned in, also while the camera is still.
+  /// Bars and still frames around the film, which count as burned in also while the camera is
+  /// still.
   const Margins& margins() const { return margins_; }
 
   void reset();
@@ -123,7 +128,7 @@ class BurnedIn {
 
   Margins margins_;
   std::vector<Sign> signs_;
-  std::vector<uint8_t> lasting_;  ///< score of how long each block stayed constant, 0 … kMaxScore
+  std::vector<uint8_t> lasting_;  ///< for each block, its score, 0 … kMaxScore
   std::vector<uint8_t> contained_;
   std::vector<uint8_t> occluded_;
   bool camera_moves_ = false;

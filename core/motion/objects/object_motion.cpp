@@ -19,7 +19,7 @@ ObjectMeter::ObjectMeter() {
   collected_.weights.reserve(kMaxDisplacements);
 }
 
-/// Collects the blocks of an object that show how they move.
+/// Collects the blocks that show how the object moves.
 void ObjectMeter::collect_blocks(uint32_t key, const ObjectEvidence& evidence) {
   collected_.points.clear();
   const std::vector<MotionBlock>& blocks = evidence.field.blocks();
@@ -52,7 +52,8 @@ bool ObjectMeter::collect_windows(uint32_t key, const MotionModel& motion,
 }
 
 /// Chooses a similarity if its cost is below that of a translation by twice the difference of their
-/// penalties in the GRIC. Once that difference would do, but the choice would flicker.
+/// penalties in the GRIC. With the difference itself, which the GRIC demands, the choice would
+/// flicker.
 void ObjectMeter::choose_similarity(MotionModel& motion) {
   if (motion.kind == ModelKind::kSimilarity) return;
   const auto similarity = fit_robustly(ModelKind::kSimilarity, motion, collected_);
@@ -102,9 +103,9 @@ ErrorBound::ErrorBound() {
   beside_px_.reserve(kMaxDisplacements);
 }
 
-/// The variance of each coordinate due to the object's blocks: of their median, and of the least
-/// squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction. Blocks do not
-/// overlap, so each counts as a measurement.
+/// The variance of each coordinate that comes from the object's blocks: that of their median, and
+/// that of the least squares over all their pixels, mean residual / Σ g gᵀ, in its worst direction.
+/// Blocks do not overlap, so each is an independent measurement.
 double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
                                     const ObjectEvidence& evidence) {
   squares_px2_.clear();
@@ -129,8 +130,8 @@ double ErrorBound::own_variance_px2(uint32_t key, const ObjectMotion& found,
          static_cast<double>(residual) / (n * kBlockArea_px * texture);
 }
 
-/// The variance of the background: the median of its model's residuals beside the object, or the
-/// noise of a single block where nothing shows it.
+/// The variance that comes from the background: the median of its model's residuals beside the
+/// object or, if no block there shows the background, the noise of a single block.
 double ErrorBound::background_variance_px2(const Region& region, const ObjectEvidence& evidence) {
   beside_px_.clear();
   for (size_t i = 0; i < evidence.owners.size(); ++i) {

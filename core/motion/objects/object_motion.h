@@ -18,24 +18,25 @@
 
 namespace spidar {
 
-/// The evidence of an object's motion. Lengths are in px of the field's picture.
+/// What shows the motion of the objects of a frame. Lengths are in px of the field's picture.
 struct ObjectEvidence {
   const BlockField& field;
   const std::vector<RelativeBlock>& relative;  ///< for each block
-  const std::vector<uint32_t>& owners;         ///< for each block, the key of its object; 0: none
-  const std::vector<FineMotion>& fine;
+  const std::vector<uint32_t>& owners;         ///< for each block, the key of its object, or 0
+  const std::vector<FineMotion>& fine;         ///< motion of FineWindows
   const Background& background;
 };
 
-/// Motion of an object relative to the background, px of the field's picture.
+/// The motion of an object relative to the background, in px of the field's picture.
 struct ObjectMotion {
   MotionModel model;            ///< translation or similarity
-  Eigen::Vector2d relative_px;  ///< of the middle of the object
-  int points = 0;               ///< number of windows or blocks
+  Eigen::Vector2d relative_px;  ///< motion of the middle of the object
+  int points = 0;               ///< number of the windows or blocks that were used
 };
 
-/// Measures the motion of one object from its blocks or, to a fraction of a pixel, from its windows
-/// if there are enough. Includes rotation and growth if the GRIC prefers them.
+/// Measures the motion of one object from its windows (FineWindows), which show fractions of a
+/// pixel, or from its blocks if it has too few windows. The motion is a similarity, with rotation
+/// and growth, if the GRIC (background.h) prefers it to a translation.
 class ObjectMeter {
  public:
   ObjectMeter();
@@ -51,25 +52,25 @@ class ObjectMeter {
   WeightedDisplacements collected_;
 };
 
-/// Combines four errors, which are independent of each other:
-/// - how far the object's blocks are from its motion: the standard error of their median;
+/// A bound of the error of an object's motion, from four independent errors:
+/// - the scatter of the object's blocks about the motion: the standard error of their median;
 /// - the effect of pixel noise on the object's texture, in the weakest direction: along an edge the
 ///   error is large, though all blocks of the edge agree;
-/// - how far the background beside the object is from the background's model;
-/// - how far the interpolation between pixels moves all blocks of the object or of the background
-///   alike.
+/// - the difference between the motion of the background beside the object and the model of the
+///   background;
+/// - the error of the interpolation between pixels, which all blocks of the object share, and all
+///   of the background.
 class ErrorBound {
  public:
   ErrorBound();
 
-  /// In 95 % of frames, the error of `found.relative_px`, the motion of the object `key`, is
-  /// shorter than this, px of the field's picture.
+  /// The length, in px of the field's picture, that the error of `found.relative_px` does not
+  /// exceed in 95 % of frames. `found` is the motion of the object `key`.
   double px(uint32_t key, const Region& region, const ObjectMotion& found,
             const ObjectEvidence& evidence);
 
-  /// The same for the object's own blocks alone, without the errors that they share with each other
-  /// and with the background. Shared errors last for many frames; this one differs from frame to
-  /// frame.
+  /// The same bound for the errors of single blocks alone, which differ from frame to frame. The
+  /// errors that blocks share with each other or with the background last for many frames.
   double own_px(uint32_t key, const ObjectMotion& found, const ObjectEvidence& evidence) {
     return kErrorSigmas * std::sqrt(own_variance_px2(key, found, evidence));
   }
