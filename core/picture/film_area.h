@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
@@ -15,16 +17,27 @@ namespace spidar {
 struct AreaSetting {
   enum class Kind : uint8_t {
     kWhole,
-    kAuto,   ///< the part that AreaFinder finds
-    kFixed,  ///< `part`
+    kAuto,       ///< the part that AreaFinder finds
+    kFixed,      ///< `part`
+    kFractions,  ///< `fractions`
   };
 
   Kind kind = Kind::kAuto;
-  PicturePart part;  ///< px; parts outside a picture are left out
+  // What is outside the picture is left out.
+  PicturePart part;                   ///< px
+  std::array<double, 4> fractions{};  ///< of the picture: x, y, width, height
 
-  /// Returns the part to analyse of a picture of this size: the whole picture unless kFixed. A part
-  /// with a side below kMinSide_px cannot be analysed.
+  /// Returns the part to analyse of a picture of this size: the whole picture with kWhole and
+  /// kAuto. A part with a side below kMinSide_px cannot be analysed.
   PicturePart of_picture(int width, int height) const {
+    if (kind == Kind::kFractions) {
+      const auto [x, y, part_width, part_height] = fractions;
+      const auto px = [](double fraction, int side) {
+        return static_cast<int>(std::lround(std::clamp(fraction, 0.0, 1.0) * side));
+      };
+      const int left = px(x, width), top = px(y, height);
+      return {left, top, px(x + part_width, width) - left, px(y + part_height, height) - top};
+    }
     if (kind != Kind::kFixed) return {0, 0, width, height};
     const int left = std::clamp(part.x, 0, width), top = std::clamp(part.y, 0, height);
     // The sums may be too large for an int.

@@ -50,7 +50,7 @@ constexpr FaultTexts kFaultTexts[] = {
      "luma, the whole frame is picture."},
     {"area leaves too little of it",
      "Of the property area, less than %1$d x %1$d pixels lie in the picture; it is only shown.",
-     "area=X,Y,WIDTH,HEIGHT counts pixels of the frame from its top left corner; area=whole is all "
+     "area=X,Y,WIDTH,HEIGHT counts from the top left corner of the frame; area=whole is all "
      "of it."},
 };
 static_assert(std::size(kFaultTexts) == static_cast<size_t>(FrameReport::Fault::kSmallArea) + 1);

@@ -3,6 +3,8 @@
 #include "plugin/properties/motion_properties.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -77,13 +79,14 @@ MotionRow area_row() {
   return parsed<AreaSetting>(
       {"area", "Area",
        "Part of the picture that is analysed: 'whole', 'auto' (where it changes and the rest does "
-       "not), or X,Y,WIDTH,HEIGHT in pixels"},
+       "not), or X,Y,WIDTH,HEIGHT in pixels or as fractions of the picture"},
       parse_area, [](const MotionProperties& properties) { return properties.analyzer.area; },
       [](MotionProperties& properties, const AreaSetting& area) {
         properties.analyzer.area = area;
       },
-      "'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, whole numbers of pixels, of which width and height "
-      "are at least " +
+      "'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, either fractions of the picture or whole numbers "
+      "of "
+      "pixels, of which width and height are at least " +
           std::to_string(kMinSide_px));
 }
 
@@ -317,18 +320,28 @@ std::optional<AreaSetting> parse_area(const std::string& text) {
   if (text == "auto") return area;
   area.kind = AreaSetting::Kind::kWhole;
   if (text == "whole") return area;
-  area.kind = AreaSetting::Kind::kFixed;
-  PicturePart& part = area.part;
+  if (text.find_first_not_of("0123456789.,") != std::string::npos) return std::nullopt;
+  std::array<double, 4> numbers;
   const char* next = text.c_str();
-  for (int* const number : {&part.x, &part.y, &part.width, &part.height}) {
+  for (double& number : numbers) {
     gchar* end = nullptr;
-    const gint64 read = g_ascii_strtoll(next, &end, 10);
-    const char after = number == &part.height ? '\0' : ',';
-    if (end == next || *end != after || read < 0 || read > kMaxSide_px) return std::nullopt;
-    *number = static_cast<int>(read);
+    number = g_ascii_strtod(next, &end);
+    const char after = &number == &numbers.back() ? '\0' : ',';
+    if (end == next || *end != after || number > kMaxSide_px) return std::nullopt;
     next = end + 1;
   }
-  if (std::min(part.width, part.height) < kMinSide_px) return std::nullopt;
+  const auto [x, y, width, height] = numbers;
+  if (std::max({x, y, width, height}) <= 1 && std::min(width, height) > 0) {
+    area.kind = AreaSetting::Kind::kFractions;
+    area.fractions = numbers;
+    return area;
+  }
+  area.kind = AreaSetting::Kind::kFixed;
+  area.part = {static_cast<int>(x), static_cast<int>(y), static_cast<int>(width),
+               static_cast<int>(height)};
+  const bool is_whole = std::all_of(numbers.begin(), numbers.end(),
+                                    [](double number) { return number == std::floor(number); });
+  if (!is_whole || std::min(width, height) < kMinSide_px) return std::nullopt;
   return area;
 }
 
@@ -336,8 +349,17 @@ std::string text_of(const AreaSetting& area) {
   if (area.kind == AreaSetting::Kind::kWhole) return "whole";
   if (area.kind == AreaSetting::Kind::kAuto) return "auto";
   const PicturePart& part = area.part;
-  return std::to_string(part.x) + "," + std::to_string(part.y) + "," + std::to_string(part.width) +
-         "," + std::to_string(part.height);
+  std::array<double, 4> numbers = area.fractions;
+  if (area.kind == AreaSetting::Kind::kFixed) {
+    numbers = {double(part.x), double(part.y), double(part.width), double(part.height)};
+  }
+  std::string text;
+  for (const double number : numbers) {
+    char digits[G_ASCII_DTOSTR_BUF_SIZE];
+    text += (text.empty() ? "" : ",") +
+            std::string(g_ascii_formatd(digits, sizeof digits, "%g", number));
+  }
+  return text;
 }
 
 }  // namespace spidar

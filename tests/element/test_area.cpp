@@ -94,6 +94,13 @@ TEST(Area, IsFeltAsTheFilmAlone) {
   const Felt within = feel(kArea, false);
   ASSERT_GT(size_N(alone.frames.back().wrench), 0.1);
   expect_same(alone, within);
+  const auto fraction = [](int part, int whole) {
+    return std::to_string(static_cast<double>(part) / whole);
+  };
+  expect_same(alone,
+              feel("area=" + fraction(kFilm.x, kWidth) + "," + fraction(kFilm.y, kHeight) + "," +
+                       fraction(kFilm.width, kWidth) + "," + fraction(kFilm.height, kHeight) + " ",
+                   false));
   ASSERT_EQ(alone.boxes.size(), 2u);
   ASSERT_EQ(within.boxes.size(), 2u);
   for (size_t i = 0; i < 2; ++i) {
@@ -162,14 +169,15 @@ TEST(Area, OutsideThePictureIsOnlyShown) {
 }
 
 TEST(Area, IsReadAsItIsWritten) {
-  for (const char* text : {"whole", "auto", "0,0,16,16", "160,60,480,270"}) {
+  for (const char* text :
+       {"whole", "auto", "0,0,16,16", "160,60,480,270", "0.1,0.1,0.8,0.8", "0,0,1,1"}) {
     const std::optional<AreaSetting> area = parse_area(text);
     ASSERT_TRUE(area) << text;
     EXPECT_EQ(text_of(*area), text);
   }
   for (const char* text :
        {"", "all", "1,2,300", "1,2,300,200,5", "-1,0,300,200", "0,0,15,200", "0,0,300,15",
-        "0,0,0x20,32", "0.5,0,300,200", "0,0,300,99999999999999"}) {
+        "0,0,0x20,32", "0.5,0,300,200", "0.1,0.1,0,0.8", "1e-1,0,1,1", "0,0,300,99999999999999"}) {
     EXPECT_FALSE(parse_area(text)) << text;
   }
 }
