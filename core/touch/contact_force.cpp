@@ -19,7 +19,8 @@ Eigen::Vector2d texture_slope(const HeightField& texture, double gain,
   return slope * (ContactForce::kMaxTextureSlope / steepness);
 }
 
-/// The velocity also lags by its low-pass filter; the remaining delay applies to all forces.
+/// The drives have the lag that remains of the delay without its one and a half ticks. The force of
+/// a velocity comes after the whole delay and the lag of the low-pass filter.
 ForcePath path_of(const ContactSettings& settings) noexcept {
   ForcePath path;
   path.max_force_N = settings.max_force_N;
@@ -54,7 +55,8 @@ void validate(const ContactSettings& s) {
 }
 
 void ContactForce::follow(const Eigen::Vector3d& grip_m, double dt_s) noexcept {
-  // The two poses were read in the exchanges that ended the last two ticks.
+  // A tick gets the pose of the exchange that ended the last tick, so the time between the two
+  // poses is the dt_s of the last tick.
   const double way_s = before_s_ > 0 ? before_s_ : dt_s;
   if (started_ && way_s > 0) {
     const double turns = 2 * M_PI * kVelocityCutoff_Hz * way_s;

@@ -28,8 +28,8 @@ struct ContactSettings {
   /// max_force_N may be infinite.
   double max_force_N = std::numeric_limits<double>::infinity();
   double max_slew_N_s = 300;
-  /// Force rendered at the same time that does not come from the contact, such as the film's. It
-  /// shares these two limits with the contact.
+  /// A force that the device exerts at the same time but that does not come from the contact, such
+  /// as the film's. The two limits above hold for the sum.
   Eigen::Vector3d beside_N = Eigen::Vector3d::Zero();
   /// Mass of the grip alone, finite and above 0. A lighter grip can gain energy in a fast tap.
   double least_mass_kg = 0.05;
@@ -39,7 +39,7 @@ struct ContactSettings {
   double damping_N_s_m() const noexcept { return damping * stiffness_N_m * delay_s; }
 };
 
-/// Throws std::invalid_argument naming the setting that is out of range.
+/// Throws std::invalid_argument, which names the setting that is out of range.
 void validate(const ContactSettings& settings);
 
 /// The contact force on a grip that touches a relief: the sum of a spring to the proxy, a damper,
@@ -49,15 +49,15 @@ class ContactForce {
  public:
   /// Cutoff frequency of the first-order low-pass on the velocity.
   static constexpr double kVelocityCutoff_Hz = 60;
-  /// The texture force is at most this fraction of the normal force, of which at most kMaxTexture_N
-  /// counts. The limit bounds the texture's stiffness as a spring along the surface.
+  /// The texture force is at most kMaxTextureSlope times the normal force, which counts up to
+  /// kMaxTexture_N. This bounds the texture's stiffness as a spring along the surface.
   static constexpr double kMaxTextureSlope = 0.15;
   static constexpr double kMaxTexture_N = 1;
 
-  /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. The grip
-  /// was at `grip_m` in the exchange of that tick. The force is zero without contact and never
-  /// pulls the grip into the surface. `texture` has heights whose slope is rendered, or is null.
-  /// The settings must be valid. Neither allocates nor throws.
+  /// Returns the force on the grip in the device frame, `dt_s` > 0 after the last tick. `grip_m` is
+  /// the position of the grip in the exchange of the last tick. The force is zero without contact
+  /// and never pulls the grip into the surface. `texture` holds heights whose slope becomes a
+  /// force, or is null. The settings must be valid. Neither allocates nor throws.
   Eigen::Vector3d tick(const MovingRelief& surface, const HeightField* texture,
                        const ContactSettings& settings, const Eigen::Vector3d& grip_m,
                        double dt_s) noexcept;

@@ -12,14 +12,14 @@
 namespace spidar::touch {
 
 struct ReliefSettings {
-  double floor_z_m = 0;       ///< z of black or far; finite
-  double relief_m = 0.008;    ///< height of white or near above it; finite and ≥ 0
+  double floor_z_m = 0;       ///< z of black or farthest; finite
+  double relief_m = 0.008;    ///< height of white or nearest above floor_z_m; finite and ≥ 0
   double smoothing_m = 5e-4;  ///< standard deviation of the Gaussian filter; finite and ≥ 0
-  double black_grey = 0;      ///< brightness of black, and …
-  double white_grey = 255;    ///< … of white, which is larger: 16 and 235 in most films
+  double black_grey = 0;      ///< brightness of black
+  double white_grey = 255;    ///< brightness of white, larger; 16 and 235 in most films
 };
 
-/// Throws std::invalid_argument naming the value that is out of range.
+/// Throws std::invalid_argument, which names the value that is out of range.
 void validate(const ReliefSettings& settings);
 
 /// Builds reliefs. Allocates only when the size of the picture changes.
@@ -45,9 +45,9 @@ class ReliefBuilder {
                        HeightField& field);
 
   /// Builds a relief from the `levels` of HeightField::kCells cells, 0 (far) … 1 (near), as
-  /// DepthPicture provides them. A hole (NaN) takes the farther of the values to its left and
-  /// right; an empty row takes the farther of the values above and below. Returns false, and leaves
-  /// `field` unchanged, when all cells are holes. The settings must be valid.
+  /// DepthPicture provides them. A hole (NaN) takes the farther of the values to its left and right
+  /// or, in a row of holes alone, of those above and below. Returns false, and leaves `field`
+  /// unchanged, when all cells are holes. The settings must be valid.
   bool from_levels(const float* levels, const ReliefSettings& settings, HeightField& field);
 
   /// Writes the detail that smoothing removed from the last picture or depth, as heights about 0 (a
@@ -62,8 +62,8 @@ class ReliefBuilder {
   CellAverage average_;
   std::vector<uint8_t> row_;     ///< of the picture
   std::vector<float> level_;     ///< 0 (far) … 1 (near), of each cell, before smoothing
-  std::vector<float> smoothed_;  ///< the same, after
-  std::vector<float> passed_;    ///< after the pass along the rows
+  std::vector<float> smoothed_;  ///< level_ after smoothing
+  std::vector<float> passed_;    ///< level_ after smoothing along the rows
 };
 
 }  // namespace spidar::touch

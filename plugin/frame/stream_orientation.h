@@ -19,11 +19,11 @@ inline Orientation turn_of(GstVideoOrientationMethod method) {
       return Orientation(3);
     case GST_VIDEO_ORIENTATION_HORIZ:
       return Orientation(0, true);
-    case GST_VIDEO_ORIENTATION_UR_LL:  // exchanges the upper left corner and the lower right one
+    case GST_VIDEO_ORIENTATION_UR_LL:  // exchanges upper left and lower right
       return Orientation(1, true);
     case GST_VIDEO_ORIENTATION_VERT:
       return Orientation(2, true);
-    case GST_VIDEO_ORIENTATION_UL_LR:  // exchanges the other two
+    case GST_VIDEO_ORIENTATION_UL_LR:  // exchanges upper right and lower left
       return Orientation(3, true);
     default:
       return Orientation();

@@ -13,11 +13,12 @@
 
 namespace spidar {
 
-/// Maps the grip's position to a position in the picture. The picture is upright in the device's xy
-/// plane. Its middle is the centre of the workspace; its edges are halfway to the frame, the box
-/// around the exits of the strings, because there the grip can still be held (docs/strings.md).
-/// Depth and rotation of the grip do not move the pointer. `turn` is how the picture is turned for
-/// display; positions are those before it is turned: (0, 0) is top left, (1, 1) bottom right.
+/// Maps the position of the grip to one in the picture, which stands upright in the xy plane of the
+/// device. The middle of the picture is the centre of the workspace. Its edges are halfway from
+/// there to the box around the exits of the strings, where a hand can still hold the grip
+/// (docs/strings.md). Depth and rotation of the grip do not move the pointer. `turn` is how the
+/// picture is turned for display; positions are those before that: (0, 0) is top left, (1, 1)
+/// bottom right.
 class GripPointer {
  public:
   /// Without a device, every position is the middle.

@@ -10,11 +10,11 @@
 
 namespace spidar {
 
-/// Owns the limits of force and torque of a loop: those that were set, and those in effect. A
-/// raised limit applies at once; the force approaches it at the slew limit. A lowered limit falls
-/// at the slew limit, from the larger one of the commanded and the delivered force, to the set
-/// value. The limit in effect does not stop at the force of the strings at rest, a part of the
-/// delivered force that no limit lowers. The same holds for the torque.
+/// The limits of force and torque of a loop: those that were set, and those in effect. A raised
+/// limit is in effect at once; the force approaches it at the slew limit. A lowered limit falls at
+/// the slew limit to the set value, from the commanded or the delivered force, whichever is larger.
+/// It also falls below the force of the strings at rest, which is a part of the delivered force
+/// that no limit lowers. The same holds for the torque.
 class ForceLimits {
  public:
   /// `most_N` and `most_Nm` bound the limits, however high they are set, until the first tick.

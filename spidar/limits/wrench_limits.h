@@ -39,10 +39,11 @@ class StaleRamp {
 
 /// The rates of a wrench: the ramp and the slew limit.
 ///
-/// On the way to zero, the stale fraction is the last step, so that no slew setting, however low,
-/// maintains a force for longer than ramp_s. On the way back, it comes before the slew limit, so
-/// that both together do not exceed that limit. A fresh command therefore changes by at most
-/// max_slew, and a stale one decreases by at most 1.5 max_force / ramp_s.
+/// While commands are stale, the ramp lowers the wrench even where the slew limit would not, so
+/// that no slew setting, however low, maintains a force for longer than ramp_s. While the ramp
+/// returns, it acts before the slew limit, so that both together do not exceed that limit. A fresh
+/// command therefore changes by at most max_slew, and a stale one decreases by at most 1.5
+/// max_force / ramp_s.
 class WrenchLimits {
  public:
   /// Returns the wrench to apply, `dt_s` after the last call. `wanted` is within `limits`. If not

@@ -55,8 +55,8 @@ bool repeated(AnyHold& hold, const Begin& begin, const Part& part) {
   }
 }
 
-/// The common part of holding strings and a grip. The value changes linearly. Every function throws
-/// DeviceError when the device is lost, or has not answered for too long.
+/// The common part of StringHold and ForceHold: a value that a ramp changes linearly. Every
+/// function throws DeviceError when the device is lost, or has not answered for too long.
 template <typename Value, typename Reading>
 class Hold {
  public:
@@ -141,7 +141,8 @@ class StringHold final : public Hold<StringVector, DeviceReading> {
   DeviceReading reading_;
 };
 
-/// Keeps a grip open while this object lives, and a force on it. ramp_to() switches the force on.
+/// Keeps a grip open during the lifetime of this object, with a force on it. ramp_to() switches the
+/// force on.
 class ForceHold final : public Hold<Eigen::Vector3d, GripReading> {
  public:
   /// Opens the grip with forces switched off. Throws DeviceError.

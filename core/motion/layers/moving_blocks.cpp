@@ -14,8 +14,8 @@
 namespace spidar {
 namespace {
 
-/// The direction in which most blocks move. A block that moves little counts little, and a block
-/// that moves far counts no more than any other.
+/// The direction in which most blocks move. A block that moves little has little weight, and a
+/// block that moves far has no more than any other.
 Eigen::Vector2f direction_of(const std::vector<Eigen::Vector2f>& moved_px, float middle_px2) {
   float unequal = 0;
   float mixed = 0;

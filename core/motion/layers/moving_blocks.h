@@ -16,8 +16,8 @@ namespace spidar {
 /// The deviations of blocks from the background's model, as a covariance.
 ///
 /// When the camera travels, the parts of the scene that are nearer or further away than the model
-/// move against the model, all in one direction: that of the epipolar lines. In the direction
-/// across these lines there is only noise. An object that moves by itself must exceed both.
+/// move against the model, all in one direction: that of the epipolar lines. Across these lines
+/// there is only noise. An object must move further than parallax and noise explain.
 class Parallax {
  public:
   /// `moved_px` is the motion of the blocks of the scene relative to the background. Fewer than
@@ -38,10 +38,10 @@ class Parallax {
 
 /// A block compared with the background. Lengths are in pixels of the field's picture.
 struct RelativeBlock {
-  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();       ///< against the background
+  Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();       ///< relative to the background
   Eigen::Vector2f background_px = Eigen::Vector2f::Zero();  ///< of the background there
   bool shows_motion = false;  ///< its texture, or its pixels, determine its motion
-  bool was_outside = false;   ///< most of it was outside of the film in the previous picture
+  bool was_outside = false;   ///< most of it was outside the film in the previous picture
   bool is_occluded = false;   ///< graphics hide the film here, see BurnedIn::occludes()
   bool lasts = false;         ///< has stood out for so long that it needs no neighbour to move
   bool moves = false;         ///< moves by itself, with its neighbours considered
@@ -57,14 +57,17 @@ double alike_px(double fastest_px);
 /// Whether two motions may be of the same object.
 bool are_alike(const Eigen::Vector2f& a_px, const Eigen::Vector2f& b_px);
 
-/// Finds the parts of the picture that move by themselves: compares each block with the background.
-/// A block moves by itself when its motion is further from the background's than its own error and
-/// the background's noise explain. The background's motion must also explain the pixels of a fast
-/// block clearly worse, and far worse if the block has no texture, as out of focus. Pixels do not
-/// separate motions that differ by less than one of them: a slow block must stand out from the
-/// parallax of the scene instead, unless the camera rests or an object is known there. While the
-/// motion of the background is unknown, no block is known to move by itself. A single block that
-/// stands out is an error unless it lasts.
+/// Finds the blocks that move by themselves, by comparison with the background. Three conditions
+/// hold for such a block:
+/// - Its motion is further from the background's than its own error and the background's noise
+///   explain.
+/// - The background's motion explains the pixels of the block clearly worse than the block's own
+///   motion does, and far worse if the block has no texture, as out of focus. Pixels do not
+///   separate motions that differ by less than a pixel: a slow block must stand out from the
+///   parallax of the scene instead, unless the camera rests or an object is known there.
+/// - It has neighbours that stand out, or it lasts. A single block that stands out is an error.
+///
+/// While the motion of the background is unknown, no block is known to move by itself.
 class MovingBlocks {
  public:
   /// `expected` is 1 for each block on which an object was in the previous frame, or is expected in
@@ -82,8 +85,8 @@ class MovingBlocks {
   void reset();
 
  private:
-  /// The fraction of the last frames in which a block stood out alike, and its motion in the last
-  /// one.
+  /// The fraction of the last frames in which a block stood out with nearly the same motion, and
+  /// its motion in the last of them.
   struct StoodOut {
     float fraction = 0;
     Eigen::Vector2f moved_px = Eigen::Vector2f::Zero();
@@ -100,7 +103,7 @@ class MovingBlocks {
   void remember_motion(const BlockField& field);
 
   std::vector<RelativeBlock> relative_;
-  std::vector<uint8_t> stands_out_;  ///< of each block, without its neighbours
+  std::vector<uint8_t> stands_out_;  ///< for each block, its neighbours not considered
   std::vector<float> foreground_;
   std::vector<float> foreground_before_;
   std::vector<StoodOut> stood_out_;

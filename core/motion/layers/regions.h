@@ -64,14 +64,15 @@ class RegionFinder {
 /// The motion of one region over its last frames.
 ///
 /// When the camera travels, a part of the scene that is nearer than the background also moves
-/// against the background. But it moves in the same direction and further, so that its motion on
-/// the screen is larger than its motion relative to the background. An object that the camera
-/// follows moves less on the screen than relative to the background.
+/// against the background. Such a part moves in the same direction as the background and further,
+/// so its motion on the screen is larger than its motion relative to the background. An object that
+/// the camera follows moves less on the screen than relative to the background.
 class LayerEvidence {
  public:
-  /// Adds a frame, in px of the field's picture: the region's motion relative to the background,
-  /// the motion of the background at the region, and the standard deviation of the motion of the
-  /// blocks around it in the direction of `relative_px`, which is 0 while the camera rests.
+  /// Adds a frame, in px of the field's picture. `relative_px` is the motion of the region relative
+  /// to the background, `background_px` that of the background at the region. `noise_px` is the
+  /// standard deviation of the motion of the blocks around the region, in the direction of
+  /// `relative_px`; it is 0 while the camera rests.
   void add(const Eigen::Vector2d& relative_px, const Eigen::Vector2d& background_px,
            double noise_px, double interval_s);
 

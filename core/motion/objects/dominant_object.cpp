@@ -19,7 +19,7 @@ double growth(double prominence, double of_followed, double followed_s) {
   return (prominence - claim) / (prominence + claim);
 }
 
-/// The fraction of the smaller of two boxes that the other covers if both are of one object.
+/// Two boxes are of one object if they share more than this fraction of the smaller box.
 constexpr double kSamePlace = 0.5;
 
 /// Whether an object is where an invisible one would be: both are then parts of the same object.
@@ -30,8 +30,8 @@ bool has_replaced(const MovingObject& object, const MovingObject& hidden) {
 
 }  // namespace
 
-/// Whether an object was not known before, and is where the followed one may have gone, in any
-/// direction, since that was last seen.
+/// Whether an object is new since the followed one was last seen, and is where the followed one may
+/// have gone, in any direction.
 bool DominantObject::may_be_it(const MovingObject& object) const {
   if (object.id <= newest_id_) return false;
   return last_box_px_.intersects(object.box_px());

@@ -26,12 +26,12 @@ namespace spidar {
 /// appears while the followed object is invisible begins at half of the time since that object was
 /// lost.
 ///
-/// These are followed at once: the first object; any object after the followed one has left at the
-/// border of the picture; any that appears when the followed one has been lost for twice kReason_s;
-/// and, while the followed object is invisible, an object that covers half of the place where it
-/// would be, because that is a part of the same object. An object that first appears where the lost
-/// one may have gone, in any direction, counts as the lost one: a ball may bounce in a frame in
-/// which it is not found.
+/// Some objects are followed at once: the first one; any one after the followed object has left at
+/// the border of the picture; any one that appears when the followed object has been lost for twice
+/// kReason_s; and, while the followed object is invisible, an object that covers half of the place
+/// where the followed one would be, because it is a part of the same object. An object that first
+/// appears where the lost one may have gone, in any direction, counts as the lost one: a ball may
+/// bounce in a frame in which it is not found.
 class DominantObject {
  public:
   DominantObject();
@@ -64,8 +64,8 @@ class DominantObject {
   uint32_t id_ = 0;        ///< 0: none
   double lost_s_ = 0;      ///< since the followed object was visible
   double followed_s_ = 0;  ///< how long the followed object has been visible
-  /// The followed object's last box, grown by how far it may have moved since, its last speed, and
-  /// the id of the newest object then.
+  /// The box of the followed object when it was last visible, extended by how far it may have moved
+  /// since; its speed then; and the id of the newest object then.
   Eigen::AlignedBox2d last_box_px_;
   double last_speed_px_s_ = 0;
   uint32_t newest_id_ = 0;
