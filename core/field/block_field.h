@@ -80,14 +80,14 @@ class BlockField {
   const BlockGrid& grid() const { return grid_; }
   /// Blocks of the last update(), row by row.
   const std::vector<MotionBlock>& blocks() const { return blocks_; }
-  /// Noise of the two pictures, grey²: the residual that a third of the blocks, those which their
-  /// motion explains best, do not exceed.
+  /// Noise of the two pictures, grey²: the largest residual in the third of the blocks with the
+  /// smallest residuals.
   float noise_grey2() const { return noise_grey2_; }
   /// The side of a pixel of the picture, in pixels of the base.
   double scale() const { return pixels_to_one(scale_); }
 
   enum class Match : uint8_t {
-    kPlain,  ///< its pixels differ from their mean less than a doubtful match would
+    kPlain,  ///< its pixels differ from their mean by less than a doubtful match
     kFound,
     kLost,  ///< its best match shows something else
   };
@@ -110,20 +110,20 @@ class BlockField {
   size_t origin_of(size_t index) const;
 
   /// Σ |now − before| of a block if it had moved by `moved_px`: the smaller of the values at the
-  /// exact position and at the nearest whole pixels. Negative when that position is out of reach.
+  /// exact position and at the nearest whole pixels. Negative when the position is out of reach.
   int difference_if_moved(size_t block, const Eigen::Vector2f& moved_px) const;
 
   /// How many pictures of this shot before the last one are known, kMaxBack at most; 0 while all
   /// blocks stand still because the last picture is repeated.
   int pictures_back() const { return stands_still_ ? 0 : pictures_back_; }
-  /// How much less the cells of a block differ from the picture `back` pictures ago if the block
-  /// has come from `from_px` away than if it has stayed in place; positive if it has moved. Returns
-  /// nothing if the block would have come from outside the picture.
+  /// How much better the picture `back` pictures ago fits a block that has come from `from_px` away
+  /// than one that has stayed in place, as a difference of the block's cells: positive if the block
+  /// has moved. Returns nothing if the block would have come from outside the picture.
   std::optional<int> cell_difference_gain(size_t block, int back,
                                           const Eigen::Vector2i& from_px) const;
 
   /// Pixels of a block, or of the block `beside_px` beside it, that stayed in place while their
-  /// surroundings moved by `moved_px`; none when that is out of reach.
+  /// surroundings moved by `moved_px`; none when that motion leads out of reach.
   StayingPixels staying_pixels(size_t block, const Eigen::Vector2f& moved_px,
                                const Eigen::Vector2i& beside_px = {0, 0}) const;
 

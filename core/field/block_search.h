@@ -47,7 +47,7 @@ struct BlockGrid {
     return index(inside(blocks.x(), columns), inside(blocks.y(), rows));
   }
 
-  /// How many blocks lie between this one and the nearest side in each direction.
+  /// How many columns, or rows, lie between a block and the nearer side of the grid.
   int columns_beside(size_t block) const {
     return std::min(column(block), columns - 1 - column(block));
   }
@@ -89,7 +89,8 @@ class AreaSums {
   /// Sums the positions of a block that lie at most kBlockReach_px beyond the edge.
   void read(const PaddedImage& picture);
 
-  /// The sum at the position whose first pixel is `right_px`, `down_px` from the first one of all.
+  /// The sum at the position that is `right_px` to the right of the first one and `down_px` below
+  /// it.
   int at(int right_px, int down_px) const {
     return sums_[static_cast<size_t>(down_px) * width_ + static_cast<size_t>(right_px)];
   }
@@ -141,9 +142,9 @@ Scalar roundness(const Eigen::Matrix<Scalar, 2, 2>& S) {
   return S.trace() > 0 ? smaller / (S.trace() - smaller) : 0;
 }
 
-/// The largest correction of a block's motion in whole pixels, px of the picture in which motion is
-/// measured: such a motion is right to half a pixel, or wrong. A block further off shows something
-/// else.
+/// The largest correction of a block's motion by refined_block(), px of the picture in which motion
+/// is measured. A motion in whole pixels is right to half a pixel, or wrong: a block that needs a
+/// larger correction shows something else.
 constexpr float kMaxOff_px = 1;
 
 /// A block of kBlock_px × kBlock_px pixels of the picture in which motion is measured. Lengths are
@@ -179,15 +180,16 @@ inline BlockPixels pixels_at(const PaddedImage& picture, const Eigen::Vector2i& 
   return {picture.row(corner_px.y()) + corner_px.x(), picture.stride()};
 }
 
-/// The block whose upper left pixel is `corner_px`, found in whole pixels at `match`: one
-/// Gauss–Newton step with the derivatives of both pictures refines its motion. Using both makes the
-/// step second-order exact (Benhimane and Malis: Real-time image-based tracking of planes using
-/// efficient second-order minimization, IROS 2004). `regularization` is added to the diagonal of
-/// the structure tensor, (grey / px)²: with hardly any texture, the result of the search stays.
+/// Refines the motion of the block whose upper left pixel is `corner_px`, which the search in whole
+/// pixels has found at `match`, by one Gauss–Newton step with the derivatives of both pictures.
+/// Using both makes the step second-order exact (Benhimane and Malis: Real-time image-based
+/// tracking of planes using efficient second-order minimization, IROS 2004). `regularization` is
+/// added to the diagonal of the structure tensor, (grey / px)²: with hardly any texture, the result
+/// of the search stays.
 MotionBlock refined_block(const PaddedImage& before, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);
-/// The same, with the `sums` that compare_blocks() returns there.
+/// The same, from the `sums` that compare_blocks() returns for this match.
 MotionBlock refined_block(const BlockSums& sums, const PaddedImage& now,
                           const Eigen::Vector2i& corner_px, const BlockMatch& match,
                           float regularization);

@@ -17,8 +17,8 @@ class CoarseBlocks {
  public:
   /// Allocates what find() needs for pictures of this size: its first call may be much later.
   void reserve(const BlockField& field);
-  /// Measures the coarse blocks. Lengths are in pixels of the field's picture, structure in (grey /
-  /// px)² of the coarse one. There are none while the field stands still.
+  /// Measures the coarse blocks; returns none while the field stands still. Lengths are in pixels
+  /// of the field's picture, structure in (grey / px)² of the coarse one.
   const std::vector<MotionBlock>& find(const BlockField& field);
 
  private:

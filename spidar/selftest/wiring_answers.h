@@ -22,11 +22,11 @@ struct PulledMotor {
 };
 
 struct WiringSettings {
-  double pull_N = 0.5;   ///< above the smallest tension, as far as the string's largest allows
+  double pull_N = 0.5;   ///< above the minimum tension, up to the string's largest tension
   double ramp_s = 0.05;  ///< time to build up the pull, and to release it
   double settle_s = 0.1;
   double average_s = 0.1;
-  /// Tries a motor that does nothing with the other sign, on boards with negative volts.
+  /// Whether a motor that does nothing is tried with the other sign, on boards with negative volts.
   bool try_reversed = false;
   /// If not null, receives each motor after its pull, with a capacity for all tries.
   SpscRing<PulledMotor, 64>* pulled = nullptr;
@@ -38,14 +38,14 @@ struct WiringAnswers {
   StringVector pulled_N = StringVector::Zero();  ///< the additional tension of each motor
   /// Whether the motor pulled with the sign opposite to the profile's.
   std::array<bool, kMaxStrings> reversed{};
-  /// Whether the answers to the motor's pulls differed at every attempt, because the hand moved.
+  /// Whether the answers to the pulls of a motor differed at every attempt, because the hand moved.
   std::array<bool, kMaxStrings> unsteady{};
   bool complete = false;  ///< false if the pace ended the test early
 };
 
 /// Pulls one string after the other while a hand holds the grip loosely and the other strings have
-/// their smallest tension. Pulls each string twice. If the two answers differ, or the counts at
-/// rest before and after a pull do, repeats both pulls, up to three times. Takes a second per
+/// their minimum tension. Pulls each string twice. Repeats both pulls, up to three times, if the
+/// two answers differ, or if the counts at rest differ before and after a pull. Takes a second per
 /// string with the default settings, and as much again when pulls are repeated or a motor is tried
 /// with the other sign.
 ///

@@ -31,7 +31,7 @@ struct WiringReport {
   /// The correlation of the answers with those expected for this wiring, 0 … 1.
   double correlation = 0;
 
-  /// Below kMinCorrelation the answers do not look like this device's, however it is wired.
+  /// Below kMinCorrelation the answers do not look like those of this device, however it is wired.
   static constexpr double kMinCorrelation = 0.8;
   /// Whether the correlation is sufficient, and no motor is unclear.
   bool is_conclusive() const noexcept;
@@ -52,9 +52,9 @@ struct WiringReport {
 WiringReport judge_wiring(const Profile& profile, const WiringAnswers& answers);
 
 /// Returns the profile with the measured signs, and with its strings in the order of the channels.
-/// Where strings or encoder signs change, the new profile loses the calibration, and must be
-/// calibrated again. `how` describes the provenance. Throws std::invalid_argument when the report
-/// is not fixable().
+/// If strings or encoder signs change, the new profile loses its calibration, and the device must
+/// be calibrated again. `how` describes the provenance. Throws std::invalid_argument when the
+/// report is not fixable().
 Profile rewired_profile(const Profile& profile, const WiringReport& report, const std::string& how);
 
 /// How often test_wiring() measures at most: a moving hand makes different strings unclear each

@@ -200,9 +200,9 @@ void ObjectTracker::update_rotation(Track& track, const ObjectMotion& found,
 }
 
 /// The standard deviation of the motion of the blocks outside an object against the background, in
-/// the direction in which the object moves: in a scene with depth, half of the picture may move
-/// against any single model of the background. A region that does not stand out from that is not an
-/// object.
+/// the direction in which the object moves. In a scene with depth, half of the picture may move
+/// against any single model of the background; a region that does not stand out from this motion is
+/// no object.
 double ObjectTracker::noise_around(const Track& track) {
   // Where few blocks showed how the camera moves, those with texture may all be an object's rim.
   if (background_->is_of_few) return background_->sigma_px;
@@ -273,9 +273,9 @@ void ObjectTracker::observe_rest(Track& track, const FieldInFrame& frame) {
   track.object.error_px_s = frame.scale * kErrorSigmas * background_->sigma_px / frame.interval_s;
 }
 
-/// Handles a frame in which nothing is known to move by itself at the object's position. If most of
-/// the object's usual blocks were there before, the object has come to rest there. If only a rim
-/// was visible, the object is invisible now and continues with its last motion.
+/// Handles a frame in which nothing is known to move by itself at the object's position. The object
+/// has come to rest if most of its usual blocks were there before. If only a rim was visible, the
+/// object is invisible now and continues with its last motion.
 void ObjectTracker::miss(Track& track, const FieldInFrame& frame) {
   MovingObject& object = track.object;
   if (track.since_s == 0) object.has_left = track.has_left(frame.interval_s);

@@ -44,13 +44,13 @@ struct Track {
   /// so a small object must be seen more often. A single frame never suffices, because noise does
   /// not move twice in the same way.
   static constexpr int kConfirmBlocks = 7;
-  /// With less of its usual blocks than this, only a rim of an object is visible.
+  /// With a smaller fraction of its usual blocks, only a rim of an object is visible.
   static constexpr double kRimFraction = 0.5;
   /// How long an object may be invisible or at rest before it is dropped: longer than objects are
   /// usually hidden, and than most pauses in their motion.
   static constexpr double kForgotten_s = 0.5;
-  /// Time constant with which the drawn box follows the blocks. If a block appears in every second
-  /// frame of 25 a second, the box moves by a tenth of that block.
+  /// Time constant with which the drawn box follows the blocks. At 25 frames/s, a block that
+  /// appears in every second frame moves the box by a tenth of the block.
   static constexpr double kBoxSettles_s = 0.4;
 
   uint32_t key = 0;     ///< in the order of creation, > 0
@@ -62,10 +62,10 @@ struct Track {
   /// Corners of the drawn box, in the field.
   Eigen::Vector2d low_px = Eigen::Vector2d::Zero(), high_px = Eigen::Vector2d::Zero();
   State state = State::kSeen;
-  double since_s = 0;  ///< how long it has been at rest or hidden
+  double since_s = 0;  ///< how long the object has been at rest or hidden
   LayerEvidence evidence;
   int blocks_seen = 0;     ///< in all frames together, see kConfirmBlocks
-  bool is_proven = false;  ///< in one of its frames, it was clearly no layer of the scene
+  bool is_proven = false;  ///< was clearly no layer of the scene in one of its frames
   bool is_layer = false;   ///< looks more like a part of the scene than like an object
 
   bool is_seen() const { return state == State::kSeen; }
@@ -83,12 +83,12 @@ struct Track {
     return (other.relative_px - expected_px).norm() <
            kAlikeFraction * fastest_px + static_cast<double>(kMaxOff_px);
   }
-  /// Whether the region may be the object after it has bounced. In the picture with the impact, and
-  /// often in the next, the object moves unlike before and is invisible. Afterwards it is no
-  /// faster, and not further away than it can have moved. The motion of errors and of layers
-  /// changes like that, too. So the object must be no layer, and have been seen for kKnown times as
-  /// long as its confirmation took: the probability that errors move alike for so long is the
-  /// kKnown-th power of that of their confirmation.
+  /// Whether the region may be the object after a bounce. In the picture with the impact, and often
+  /// in the next, the object moves unlike before and is invisible. Afterwards the object is no
+  /// faster than before, and no further away than it can have moved. The motion of errors and of
+  /// layers changes in this way, too, so the object must be no layer, and must have been seen for
+  /// kKnown times as long as its confirmation took: the probability that errors move alike for so
+  /// long is the kKnown-th power of the probability that they are confirmed.
   bool has_bounced_to(const Region& other, double interval_s) const {
     constexpr int kKnown = 4;
     if (!is_proven || is_layer || blocks_seen < kKnown * kConfirmBlocks) return false;
@@ -140,7 +140,7 @@ struct Track {
   void extrapolate(double interval_s) {
     expected.position_px += expected.velocity_px_s * interval_s + region.background_px;
   }
-  /// Stores the state for a time when the object is invisible. Its usual number of blocks rises at
+  /// Stores what to expect while the object is invisible. The expected number of blocks rises at
   /// once and falls slowly.
   void expect(double interval_s) {
     const double blocks = region.blocks;
@@ -159,7 +159,7 @@ struct Track {
 /// The field of block motion of one frame, and how its pixels map to the frame.
 struct FieldInFrame {
   const BlockField& field;
-  double scale = 1;  ///< frame pixels to one pixel of the field's picture
+  double scale = 1;  ///< px of the frame per px of the field's picture
   /// Centre of the field relative to the centre of the frame, px of the frame.
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
   double interval_s = 0;  ///< since the previous frame, > 0

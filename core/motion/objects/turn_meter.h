@@ -61,9 +61,9 @@ class TurnMeter {
     Eigen::Vector2f at_px;
     Eigen::Vector2f rho;
     float grey;
-    Eigen::Vector2f slope;  ///< grey levels a pixel
+    Eigen::Vector2f slope;  ///< grey levels per pixel
     Eigen::Vector2f bend;   ///< half of the second differences
-    float behind2;          ///< squared difference if it moves with the background, grey²
+    float behind2;          ///< squared difference if the pixel moves with the background, grey²
   };
   /// Sums over the pixels of a block, with r = now − before and J = ∂r / ∂parameters.
   struct Sums {
