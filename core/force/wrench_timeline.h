@@ -16,8 +16,9 @@ struct TimedWrench {
   /// How long after `time_ns` the wrench holds if no later frame follows; then it expires.
   int64_t hold_ns = 0;
   Wrench wrench;
-  /// The frame repeats the previous picture, whose wrench continues from `time_ns` for `hold_ns`.
-  /// `wrench` is the same, for a timeline that has forgotten the previous frame.
+  /// Whether the frame repeats the previous picture, whose wrench continues from `time_ns` for
+  /// `hold_ns`. `wrench` is equal to the wrench of that picture, for a timeline that has forgotten
+  /// its frame.
   bool repeated = false;
   /// How long before the frame the wrench applies: a motion that was measured between two pictures
   /// belongs to the time halfway between them.
@@ -31,14 +32,14 @@ enum class Found {
   kExact,         ///< at the time of a frame
   kInterpolated,  ///< between two frames
   kHeld,          ///< after the last frame, within its hold time
-  kExpired,       ///< after that: the wrench is the last one, for a ramp to zero
+  kExpired,       ///< after the hold time: the last wrench, for a ramp to zero
 };
 
 struct TimelineResult {
   Wrench wrench;
   Found found = Found::kNothing;
   int64_t frame_time_ns = INT64_MIN;  ///< of the newest frame at or before the queried time
-  int64_t late_ns = 0;                ///< how late the wrench of that frame is reached
+  int64_t late_ns = 0;                ///< how late the wrench of the newest frame is reached
 };
 
 /// A short memory of timed wrenches. Interpolates, never extrapolates. Fixed size, no allocation.

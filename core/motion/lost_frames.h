@@ -8,9 +8,9 @@
 namespace spidar {
 
 /// Distinguishes a lost frame from a repeated picture. A frame may have been repeated because the
-/// next one was lost. The film has then moved on in the meantime, so that the interval between the
-/// frames is right, not that of the cadence. The right interval is the one with which the speed is
-/// closer to the previous speed.
+/// next one was lost. The film has then moved on in the meantime: the interval between the frames
+/// is right, and the interval of the cadence is wrong. The right interval is the one that gives a
+/// speed closer to the previous speed.
 class LostFrames {
  public:
   /// Returns a factor for `speed_px_s`, which was computed with the interval of a Cadence::Step: 1,

@@ -58,8 +58,8 @@ SharpSides::Sums SharpSides::strip(int band, int from) const {
           before[kStrip_px].grey - before[0].grey};
 }
 
-/// How many times sharper the strip from `inside` on is than that from `outside` on; 0 if the
-/// latter is a bar.
+/// How many times sharper the strip that begins at `inside` is than the strip that begins at
+/// `outside`; 0 if the strip outside is a bar.
 float SharpSides::sharper(int inside, int outside) {
   constexpr int kCount = kStrip_px * kBand_px / kLine_px;
   constexpr float kPlain = 4 * kPlainSharpness_grey * kCount;

@@ -56,7 +56,7 @@ struct _GstSpidarExtract {
   Stream* track;
   GstFlowCombiner* flows;
   gint without_meta;     // atomic: successive frames without a meta
-  gint warned;           // atomic: a warning of that was posted
+  gint warned;           // atomic: a warning of missing metas was posted
   gint warned_of_queue;  // atomic: sinks that wait for each other were reported
 };
 

@@ -51,12 +51,12 @@ struct BackgroundVotes {
   bool are_many() const;
 };
 
-/// The same background in smaller pixels: `scale` of them make one of the old.
+/// Returns `background` in smaller pixels, of which `scale` make one of the old.
 Background in_pixels_of(const Background& background, double scale);
 
-/// Finds the motion of the background, and thereby that of the camera. Keeps the previous frame's
-/// kind of model while it explains the votes, unless a simpler kind has a smaller GRIC; otherwise
-/// moves on to each more general kind with a smaller GRIC, until one explains the votes.
+/// Finds the motion of the background, and thereby that of the camera. Keeps the kind of model of
+/// the previous frame while this kind explains the votes, unless a simpler kind has a smaller GRIC.
+/// Otherwise moves on to each more general kind with a smaller GRIC, until one explains the votes.
 ///
 /// An object in front of a plain background may have all the votes, and any two objects move like
 /// some similarity. When there are so few votes that two objects may have cast them all, a

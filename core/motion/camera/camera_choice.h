@@ -11,10 +11,10 @@
 
 namespace spidar {
 
-/// Tests a motion of the camera in the blocks without corners. Compares these with the one of the
-/// last four pictures since which the camera has moved them furthest: noise that an encoder moved
-/// along with an object is new some pictures later, whereas shading and stains remain. Compares the
-/// sums of cells, in which noise counts little.
+/// Tests a motion of the camera in the blocks without corners. Compares the picture with one of the
+/// last four: the one since which the camera has moved these blocks furthest. Noise that an encoder
+/// moved along with an object is new some pictures later, whereas shading and stains remain.
+/// Compares the sums of cells, in which noise counts little.
 class PlainParts {
  public:
   bool have_moved(const BlockField& field, const PreviousFrame& past, const MotionModel& model);
@@ -27,16 +27,16 @@ class PlainParts {
   void find_furthest_picture(const BlockField& field, const MotionModel& model);
 
   std::array<MotionModel, kMaxBack - 1> models_;  ///< of earlier pictures, the latest first
-  std::vector<Eigen::Vector2d> moved_px_;         ///< of each block, since the compared picture
-  std::vector<Eigen::Vector2d> steps_px_;         ///< the same, since the picture that is examined
-  int back_ = 0;                                  ///< how many pictures ago that was; 0: none
+  std::vector<Eigen::Vector2d> moved_px_;  ///< motion of each block since the compared picture
+  std::vector<Eigen::Vector2d> steps_px_;  ///< motion of each block since the examined picture
+  int back_ = 0;                           ///< how many pictures ago the compared one was; 0: none
 };
 
-/// Chooses the evidence for the camera's motion. Blocks vote first. Where they show rest or
+/// Chooses the evidence for the camera's motion. Blocks vote first. Where the blocks show rest or
 /// nothing, and are not many, coarse blocks vote. Coarse blocks also move with a large object in
 /// front of them, so the plain parts or the border must show the same motion. Last of all, edges
-/// vote along with the blocks if those are few. This gives the first choice; a motion that explains
-/// clearly more of the border replaces it.
+/// vote along with the blocks if the blocks are few. The votes give the first choice; a motion that
+/// explains clearly more of the border replaces it.
 class CameraChoice {
  public:
   CameraChoice();

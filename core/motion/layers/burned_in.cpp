@@ -73,8 +73,8 @@ struct Side {
 /// either.
 constexpr double kExactElsewhere = (1 + kExactOfGraphics) / 2;
 /// For a block with static graphics the search can find a motion of up to kMaxOff_px, because some
-/// of its pixels are of the film. A block counts as not moved below half of that, px of the field's
-/// picture.
+/// pixels of the block are of the film. A block that moved by less than half of kMaxOff_px, px of
+/// the field's picture, counts as not moved.
 constexpr float kInPlace_px = kMaxOff_px / 2;
 /// If this many pixels of a block that has moved stay in place, the block shows both graphics and
 /// the film behind them, and its motion is that of neither. The number is a tenth of the block,

@@ -25,8 +25,7 @@ class Margins {
  public:
   void update(const BlockField& field);
 
-  /// Width of the bar at the left and of that at the right, in blocks; height of that at the top
-  /// and of that at the bottom.
+  /// The number of columns in the bar at either side, and of rows in the bar at the top or bottom.
   int columns() const { return columns_.is_known() ? columns_.blocks : 0; }
   int rows() const { return rows_.is_known() ? rows_.blocks : 0; }
 
