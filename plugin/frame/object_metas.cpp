@@ -90,7 +90,8 @@ void attach_detection(GstBuffer* buffer, const ObjectBox& box, uint32_t id) {
   GstAnalyticsRelationMeta* meta = gst_buffer_get_analytics_relation_meta(buffer);
   if (!meta) meta = gst_buffer_add_analytics_relation_meta(buffer);
   GstAnalyticsMtd detection, track;
-  constexpr gfloat kConfidence = 1;  // only an object that has moved for some frames is here
+  constexpr gfloat kConfidence = 1;  // objects are found after moving for some frames
+  // When the object was first seen (GST_CLOCK_TIME_NONE) is not known here.
   if (gst_analytics_relation_meta_add_od_mtd(
           meta, g_quark_from_string(box.name.c_str()), static_cast<gint>(box.x),
           static_cast<gint>(box.y), static_cast<gint>(box.width), static_cast<gint>(box.height),

@@ -51,7 +51,7 @@ struct Choice {
 template <typename Enum>
 GType enum_type(const char* name, const std::vector<Choice<Enum>>& choices) {
   if (const GType type = g_type_from_name(name)) return type;
-  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type owns them
+  auto* const values = g_new0(GEnumValue, choices.size() + 1);  // the type refers to them
   for (size_t i = 0; i < choices.size(); ++i) {
     values[i] = {static_cast<int>(choices[i].value), choices[i].meaning, choices[i].nick};
   }
