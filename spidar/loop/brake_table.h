@@ -14,7 +14,7 @@ namespace spidar::brake {
 
 // --- Speed
 constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and half a tick of hold
-constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed, from lag and noise
+constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed: test LateTicks
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it
 constexpr double kFadeTo_m_s = 1.0;      // no force along the motion above: 100 g have kReleased_J
 constexpr double kDamping_1_s = 150;     // damping / mass: stable up to π/2 / delay, 157 for 10 ms

@@ -53,17 +53,19 @@ Eigen::Vector3d without_excess(const Eigen::Vector3d& vector, const Eigen::Vecto
 
 void GripBrake::reset() noexcept {
   strings_N_.setZero();
+  film_N_.setZero();
   acting_N_.setZero();
   away_m_.setZero();
   work_J_ = fast_s_ = 0;
-  knows_place_ = false;
   if (!held()) release();
 }
 
-void GripBrake::pull(const Eigen::Vector3d& strings_N, double dt_s) noexcept {
+void GripBrake::pull(const Eigen::Vector3d& strings_N, const Eigen::Vector3d& at_rest_N,
+                     double dt_s) noexcept {
   // The previous command has acted until now.
   acting_N_ += fraction_passed(dt_s, drive_lag_s_) * (strings_N_ - acting_N_);
   strings_N_ = strings_N;
+  film_N_ = strings_N - at_rest_N;
 }
 
 void GripBrake::update(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
@@ -73,7 +75,7 @@ void GripBrake::update(const Eigen::Vector3d& position_m, const GripMotion& moti
   if (!std::exchange(knows_place_, true)) place_m_ = position_m;
   away_m_ = position_m - place_m_;
   // The place does not follow a grip that the force pushes away: no hand chose that position.
-  if (!(strings_N_.dot(away_m_) > 0)) place_m_ += fraction_passed(dt_s, kFollows_s) * away_m_;
+  if (!(film_N_.dot(away_m_) > 0)) place_m_ += fraction_passed(dt_s, kFollows_s) * away_m_;
   // No unheld grip has more energy than the heaviest at its speed.
   const double speed_m_s =
       kSpeedError_m_s + std::max(velocity_m_s.norm(), ahead_.linear_m_s.norm());
@@ -133,12 +135,13 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
                            damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
   const double left = left_at(ahead_.linear_m_s.norm(), band_);
   const double left_of_turn = left_at(arm_m * ahead_.angular_rad_s.norm(), band_);
-  const double left_there = (kFar_m - away_m_.norm()) / (kFar_m - kNear_m);
+  const double left_there = std::max(0.0, (kFar_m - away_m_.norm()) / (kFar_m - kNear_m));
+  // The speed comes last: a force without its part outwards may push more along the motion.
+  const Eigen::Vector3d near_N = faded(wanted.force_N, away_m_, left_there);
   // The strings cannot exert both: a torque takes tension that the linear damper needs.
   allowed_ = aimed * fraction_ *
-             Wrench{faded(wanted.force_N, ahead_.linear_m_s, left),
+             Wrench{faded(near_N, ahead_.linear_m_s, left),
                     left * faded(wanted.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
-  allowed_.force_N = faded(allowed_.force_N, away_m_, std::max(0.0, left_there));
   return allowed_;
 }
 

@@ -32,19 +32,22 @@ struct FadeBand {
 /// - Rest: the wrench goes to rest when the grip has been faster than the lower speed for kFast_s.
 ///   After kRest_s it returns within kReturn_s.
 ///
-/// A fading force falls at once, without a slew limit: 10 N that fell at 300 N/s would throw a grip
-/// of 50 g at 3.5 m/s. It returns at the slew limit. The constants are in brake_table.h, with their
-/// sources.
+/// A force that fades by speed or energy falls at once along the motion, without a slew limit: 10 N
+/// that fell at 300 N/s would throw a grip of 50 g at 3.5 m/s. By place, and across the motion, a
+/// force falls at the slew limit, at which every force returns. The constants are in brake_table.h,
+/// with their sources.
 ///
-/// A still hand that follows the force of a film notices none of these measures: with 300 N/m and
-/// 8 N s/m it moves at no more than 0.45 m/s when a force of 3 N is reversed.
+/// A still hand that follows a film of 3 N notices none of these measures: with 300 N/m and 8 N s/m
+/// it moves at no more than 0.45 m/s when the force is reversed.
 class GripBrake {
  public:
   GripBrake(const GripBody& body, double drive_lag_s) : body_(body), drive_lag_s_(drive_lag_s) {}
 
-  /// Clears the motion, because the pose is unknown or the device was opened. A released grip stays
-  /// released until kRest_s after its pose is known again.
+  /// Clears the motion, because the pose is unknown. A released grip stays released until kRest_s
+  /// after its pose is known again.
   void reset() noexcept;
+  /// Forgets where the grip has been, because the device was opened.
+  void forget_place() noexcept { knows_place_ = false; }
   /// Puts the wrench to rest for kRest_s, because nobody holds the grip.
   void release() noexcept { resting_s_ = brake::kRest_s; }
 
@@ -64,8 +67,10 @@ class GripBrake {
   /// and with the energy that the strings at rest have stored at that position.
   void update(const Eigen::Vector3d& position_m, const GripMotion& motion, double stored_J,
               double dt_s) noexcept;
-  /// Updates the brake with the force that the strings exert until the next exchange.
-  void pull(const Eigen::Vector3d& strings_N, double dt_s) noexcept;
+  /// Updates the brake with the force that the strings exert until the next exchange, and with the
+  /// part of it that they would exert at rest.
+  void pull(const Eigen::Vector3d& strings_N, const Eigen::Vector3d& at_rest_N,
+            double dt_s) noexcept;
 
   /// False while the brake withholds a part of the wrench because nobody seems to hold the grip.
   bool held() const noexcept { return fraction_ >= 1 && resting_s_ <= 0; }
@@ -79,6 +84,7 @@ class GripBrake {
   const GripBody body_;
   const double drive_lag_s_;
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded
+  Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();     ///< of it, what is not exerted at rest
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
   double work_J_ = 0;    ///< work of the strings on the grip since it was last at rest
   double stored_J_ = 0;  ///< energy that the strings at rest can return

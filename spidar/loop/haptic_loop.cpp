@@ -81,6 +81,7 @@ void HapticLoop::energise() noexcept {
   late_s_ = 0;
   untrusted_ns_ = 0;
   brake_.reset();
+  brake_.forget_place();
   safety_.reset();
   exerted_ = above_rest_ = {};
   idle_.reset();
@@ -335,7 +336,7 @@ void HapticLoop::follow(double passed_s) noexcept {
   if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
   brake_.update(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
-  brake_.pull(grip.delivered.force_N, passed_s);
+  brake_.pull(grip.delivered.force_N, grip.at_rest.force_N, passed_s);
 }
 
 /// The grip may not have received this command, so the next one starts from the last acknowledged.

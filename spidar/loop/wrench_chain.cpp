@@ -12,7 +12,9 @@ const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
     {"Vibration", "the daily action value of Directive 2002/44/EC",
      "so that a force becomes weaker when it has shaken the hand for long",
      &WrenchChain::vibration},
-    {"Brake", "no force along a motion that is faster than a hand's",
+    {"Brake",
+     "no force along a motion that is faster than a hand's, outwards from where the grip has been, "
+     "or at rest",
      "because nobody may hold the grip", &WrenchChain::brake},
     {"Rates", "300 N/s and 10 N m/s unless others are set, and a ramp of 40 ms to rest and back",
      "so that a hand has the time to withstand", &WrenchChain::rates},

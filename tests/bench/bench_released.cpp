@@ -296,7 +296,7 @@ int spidar::bench::released(int argc, char** argv) {
   std::vector<Profile> profiles;
   for (const std::string& name : names) profiles.push_back(load_profile(name));
   const int each = std::max(60, grips / static_cast<int>(profiles.size() * std::size(kCases)));
-  std::printf("%zu profiles, %d grips in each case, seed %llu\n", profiles.size(), each,
+  std::printf("%zu profiles, %d grips of each in each case, seed %llu\n", profiles.size(), each,
               static_cast<unsigned long long>(seed));
   for (const Case& what : kCases) {
     if (!is_asked(what)) continue;

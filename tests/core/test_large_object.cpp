@@ -85,13 +85,13 @@ TEST(Border, IsSharedByTheModelsThatFit) {
                           another = background_moved_by({0, 7}).model;
   std::vector<double> shares;
   // Of one, what counts is what it does not explain: the other half, but for what was outside.
-  EXPECT_NEAR(share_border(field, nothing_before(), {rest}, shares), 0.5, 0.1);
-  EXPECT_GT(share_border(field, nothing_before(), {rest, moves, another}, shares), 0.9);
+  EXPECT_NEAR(divide_border(field, nothing_before(), {rest}, shares), 0.5, 0.1);
+  EXPECT_GT(divide_border(field, nothing_before(), {rest, moves, another}, shares), 0.9);
   EXPECT_NEAR(shares[0], 0.5, 0.1);
   EXPECT_NEAR(shares[1], 0.5, 0.1);
   EXPECT_LT(shares[2], 0.05);
   // Two that are the same have half each.
-  share_border(field, nothing_before(), {rest, moves, rest}, shares);
+  divide_border(field, nothing_before(), {rest, moves, rest}, shares);
   EXPECT_NEAR(shares[0], 0.25, 0.05);
   EXPECT_EQ(shares[0], shares[2]);
 }
@@ -116,11 +116,11 @@ TEST(Border, LeavesOutGraphics) {
   const double inner = (grid.columns - 4) * (grid.rows - 4);
   const double of_graphics = 4 * grid.rows / (static_cast<double>(grid.size()) - inner);
   std::vector<double> shares;
-  EXPECT_NEAR(share_border(field, nothing_before(), {moves, rest}, shares), 1 - of_graphics, 0.1);
+  EXPECT_NEAR(divide_border(field, nothing_before(), {moves, rest}, shares), 1 - of_graphics, 0.1);
   EXPECT_LT(shares[1], 0.05);
-  EXPECT_LT(share_border(field, nothing_before(), {moves}, shares), 0.05);
+  EXPECT_LT(divide_border(field, nothing_before(), {moves}, shares), 0.05);
   // Beside a camera at rest nothing tells them from the scene.
-  share_border(field, nothing_before(), {rest, moves}, shares);
+  divide_border(field, nothing_before(), {rest, moves}, shares);
   EXPECT_NEAR(shares[0], of_graphics, 0.1);
 }
 

@@ -31,6 +31,10 @@ TEST(Washout, AStepDecaysWithItsTimeConstantAtAnyFrameRate) {
         ASSERT_NEAR(passed.force_N.y(), -left, kRounding_N) << n;
         ASSERT_NEAR(passed.torque_Nm.z(), 0.01 * left, kRounding_N) << n;
       }
+      // What was lost comes back in the opposite direction.
+      const double lost = 1 - std::exp(-kTwoPi * cutoff_Hz * frame_s * 200);
+      EXPECT_NEAR(washout.apply({}, frame_s, cutoff_Hz, kMost_N).force_N.x(), -2 * lost,
+                  kRounding_N);
     }
   }
 }

@@ -156,7 +156,9 @@ TEST_F(Time, AfterAnInterruptionTheFirstFrameIsNoMotion) {
     ASSERT_EQ(frames.motions().size(), 4u);
     EXPECT_EQ(frames.motions()[2].velocity_x, 0);
     EXPECT_EQ(frames.motions()[2].wrench.force_N.norm(), 0);
-    if (c.name == std::string("loop")) EXPECT_EQ(frames.motions()[2].running_time, 7 * kFrame);
+    if (c.name == std::string("loop")) {
+      EXPECT_EQ(frames.motions()[2].running_time, 7 * kFrame);
+    }
     EXPECT_NEAR(frames.motions()[3].velocity_x, 50, kTolerance_px / 0.04);
     EXPECT_EQ(frames.warnings().size(), c.warnings);
   }

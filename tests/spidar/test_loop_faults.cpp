@@ -159,8 +159,9 @@ TEST(LostPose, AJumpIsNotFollowed) {
   driver.loop->schedule({0, INT64_MAX / 2, push_right(1)});
   driver.play(0);
   driver.run(100 * kMs);
-  Pose there;  // 5 cm in a millisecond
-  there.position_m = {0.03, 0, 0.04};
+  Pose there;  // 5 cm in a millisecond, against the force: further along it, the brake would reduce
+               // it
+  there.position_m = {-0.03, 0, -0.04};
   put_grip(driver, there);
   driver.tick();
   driver.tick();

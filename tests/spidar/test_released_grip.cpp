@@ -254,14 +254,18 @@ GripMotion spin(double turn_rad_s) {
 }
 
 /// The motion of a grip that has gone at `speed_m_s` for 0.1 s.
-GripMotion flight(double speed_m_s) {
+GripMotion flight_along(const Eigen::Vector3d& velocity_m_s) {
   GripMotion flies;
   for (int i = 0; i < 100; ++i) {
     Pose pose;
-    pose.position_m.x() = 1e-3 * speed_m_s * i;
+    pose.position_m = 1e-3 * i * velocity_m_s;
     flies.update(pose, i * kTick_ns);
   }
   return flies;
+}
+
+GripMotion flight(double speed_m_s) {
+  return flight_along({speed_m_s, 0, 0});
 }
 
 /// In each tick, the grip seems to be at the centre, and to have this motion.
@@ -316,6 +320,44 @@ TEST(GripBrake, AForceAwayFromItsPlaceFades) {
   EXPECT_EQ(left(1.1 * brake::kFar_m, in), in.force_N);
   for (int i = 0; i < 3; ++i) brake.update({brake::kFar_m, 0, 0}, {}, 0, brake::kFollows_s);
   EXPECT_EQ(left(brake::kFar_m, out), out.force_N);
+}
+
+/// Without its part outwards, this force would push along the motion.
+TEST(GripBrake, AForceThatFadesByPlacePushesNoFastGrip) {
+  GripBrake brake(GripBody::inferred(0.03), 0);
+  brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-6);
+  const GripMotion inwards = flight_along({-0.8, 0.8, 0});
+  brake.update({1.1 * brake::kFar_m, 0, 0}, inwards, 0, 1e-6);
+  const Wrench left = brake.apply({{1, 1, 0}, {}}, inwards, 1e-6);
+  EXPECT_LE(left.force_N.dot(inwards.velocity().linear_m_s), 1e-12);
+}
+
+/// A loose hand that was pushed out must not be pushed as far again after each gap.
+TEST(GripBrake, RemembersItsPlaceWhileThePoseIsUnknown) {
+  GripBrake brake(GripBody::inferred(0.03), 0);
+  brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-6);
+  brake.reset();
+  brake.update({1.1 * brake::kFar_m, 0, 0}, {}, 0, 1e-6);
+  EXPECT_NEAR(brake.apply({{1, 0, 0}, {}}, {}, 1e-6).force_N.x(), 0, 1e-12);
+  brake.forget_place();
+  brake.update({1.1 * brake::kFar_m, 0, 0}, {}, 0, 1e-6);
+  EXPECT_EQ(brake.apply({{1, 0, 0}, {}}, {}, 1e-6).force_N.x(), 1);
+}
+
+/// Tensions at rest that pull a grip from where it lay towards the centre are no film.
+TEST(GripBrake, ItsPlaceFollowsAgainstTheTensionsAtRest) {
+  GripBrake brake(GripBody::inferred(0.03), 0);
+  brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-6);
+  const auto left_N = [&](const Eigen::Vector3d& film_N) {
+    const Eigen::Vector3d at_rest_N(0.5, 0, 0);
+    for (int i = 0; i < 3; ++i) {
+      brake.pull(at_rest_N + film_N, at_rest_N, 1e-3);
+      brake.update({1.1 * brake::kFar_m, 0, 0}, {}, 0, brake::kFollows_s);
+    }
+    return brake.apply({{1, 0, 0}, {}}, {}, 1e-6).force_N.x();
+  };
+  EXPECT_NEAR(left_N({0.1, 0, 0}), 0, 1e-12);
+  EXPECT_EQ(left_N(Eigen::Vector3d::Zero()), 1);
 }
 
 /// Until drives that lag 45 ms have followed, the grip turns by 0.37, 0.74 and 1.1 rad.

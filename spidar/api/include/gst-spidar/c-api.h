@@ -210,7 +210,7 @@ GST_SPIDAR_API bool gst_spidar_device_velocity(const GstSpidarDevice* device,
  * joystick driver. Returns 0 for a device without buttons, and while the device is lost. */
 GST_SPIDAR_API uint32_t gst_spidar_device_buttons(const GstSpidarDevice* device);
 
-/*! False while the force fades, rests or returns because nobody seems to hold the grip. */
+/*! False while the force rests or returns because nobody seems to hold the grip. */
 GST_SPIDAR_API bool gst_spidar_device_held(const GstSpidarDevice* device);
 
 /*! Returns the fraction of the wanted wrench that may be exerted: 1 unless the force has shaken the

@@ -181,8 +181,8 @@ class GST_SPIDAR_API Device {
   /// Returns the velocity of the grip about 3 ms ago, m/s, or nothing while pose() is unknown.
   std::optional<Vector3> velocity() const;
 
-  /// False while the force fades, rests or returns because nobody seems to hold the grip: the grip
-  /// moved, spun or rested as only a released one does (docs/safety.md).
+  /// False while the force rests or returns because nobody seems to hold the grip: it has moved
+  /// faster than a hand for 70 ms, or turned by more than 100° (docs/safety.md).
   bool held() const;
 
   /// The fraction of the wanted wrench that may be exerted. The fraction is 1 until the force has

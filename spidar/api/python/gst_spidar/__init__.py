@@ -112,7 +112,7 @@ class Device(_Handle):
         return self._call("device_buttons", c_uint32)
 
     def held(self):
-        """False while the force fades, rests or returns because nobody seems to hold the grip."""
+        """False while the force rests or returns because nobody seems to hold the grip."""
         return self._call("device_held", c_bool)
 
     def vibration_fraction(self):
