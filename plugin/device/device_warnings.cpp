@@ -9,9 +9,9 @@
 #include "plugin/gobject/bus_messages.h"
 #include "plugin/gobject/category.h"
 #include "plugin/gobject/structure_fields.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/string_causes.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/text.h"
 

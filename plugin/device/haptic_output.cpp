@@ -13,7 +13,7 @@
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/sim/simulated_device.h"
 #include "spidar/devices/sound/sound_cards.h"
-#include "spidar/grip/string_grip.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/profiles/profile.h"
 #include "spidar/session/board_list.h"
 #include "spidar/session/device_factory.h"

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "core/wrench_size.h"
-#include "spidar/loop/brake_table.h"
-#include "spidar/loop/wrench_chain.h"
+#include "spidar/chain/brake_table.h"
+#include "spidar/chain/wrench_chain.h"
 
 namespace spidar {
 namespace {

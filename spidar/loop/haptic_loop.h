@@ -10,11 +10,11 @@
 
 #include <Eigen/Core>
 
+#include "spidar/chain/grip_brake.h"
 #include "spidar/grip/grip.h"
 #include "spidar/limits/force_limits.h"
 #include "spidar/limits/vibration_budget.h"
 #include "spidar/limits/wrench_limits.h"
-#include "spidar/loop/grip_brake.h"
 #include "spidar/loop/loop_schedule.h"
 #include "spidar/loop/loop_time.h"
 #include "spidar/loop/missing_answers.h"

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "spidar/grip/pose_trust.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/link/link_thread.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 
 namespace spidar::selftest {
 namespace {

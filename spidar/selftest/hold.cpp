@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 #include "spidar/selftest/hold.h"
 
-#include "spidar/grip/tension_command.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/realtime/monotonic.h"
 

@@ -8,9 +8,9 @@
 
 #include "spidar/devices/device_registry.h"
 #include "spidar/devices/usb_search.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/link/force_grip.h"
 #include "spidar/link/link_thread.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/text.h"
 
 namespace spidar {

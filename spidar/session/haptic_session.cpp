@@ -5,9 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "spidar/grip/string_grip.h"
 #include "spidar/limits/vibration_memory.h"
 #include "spidar/loop/loop_thread.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/realtime/monotonic.h"
 
 namespace spidar {

@@ -22,9 +22,9 @@
 #include <vector>
 
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/limits/released_turn.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/bench/held_hands.h"
 #include "tests/bench/prove_released.h"

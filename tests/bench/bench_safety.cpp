@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
+#include "spidar/chain/tension_command.h"
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/bench/benchmarks.h"
 #include "tests/support/tampered_device.h"
 

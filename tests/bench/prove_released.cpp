@@ -17,8 +17,8 @@
 #include <cstdio>
 #include <vector>
 
+#include "spidar/chain/brake_table.h"
 #include "spidar/limits/released_turn.h"
-#include "spidar/loop/brake_table.h"
 
 namespace spidar::bench {
 namespace {

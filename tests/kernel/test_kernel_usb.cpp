@@ -5,8 +5,8 @@
 #include <csignal>
 #include <unistd.h>
 
+#include "spidar/chain/tension_command.h"
 #include "spidar/devices/cyverse/board.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/guardian/guardian.h"
 #include "spidar/realtime/monotonic.h"
 #include "spidar/session/board_list.h"

@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/profiles/profile.h"
 #include "tests/support/fake_device.h"
 

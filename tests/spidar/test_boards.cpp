@@ -5,7 +5,7 @@
 #include <map>
 #include <mutex>
 
-#include "spidar/grip/string_grip.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/session/device_factory.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/board_bench.h"

@@ -5,8 +5,8 @@
 
 #include "spidar/calibration/samples.h"
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/profiles/profile_file.h"
 #include "tests/spidar/calibration_samples.h"
 #include "tests/support/fake_device.h"

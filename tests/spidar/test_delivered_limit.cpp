@@ -3,10 +3,10 @@
 /// The force and the torque that a hand gets, compared with the limits: the simulated device's
 /// truth, not what the loop believes.
 #include "core/grip/string_geometry.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/grip/string_grip.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/loop/loop_time.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/support/fake_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"

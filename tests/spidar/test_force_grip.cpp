@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// Devices that take a force: every kind with its emulation, without a wire, and the grip on them.
 #include "core/grip/string_geometry.h"
-#include "spidar/loop/brake_table.h"
+#include "spidar/chain/brake_table.h"
 #include "spidar/session/haptic_session.h"
 #include "tests/spidar/device_test.h"
 #include "tests/spidar/force_bench.h"

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/test.h"
 

@@ -4,10 +4,10 @@
 /// and speed, and how long they last, by the simulated device's truth. Short by default;
 /// SPIDAR_TICKS=10000000 is the long run (--suite hazards), which prints the table of
 /// docs/strings.md. SPIDAR_SEED selects another seed, SPIDAR_SHOW=1 prints every round.
-#include "spidar/grip/string_grip.h"
 #include "spidar/limits/released_grip.h"
 #include "spidar/loop/haptic_loop.h"
 #include "spidar/loop/loop_thread.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/support/faulty_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"

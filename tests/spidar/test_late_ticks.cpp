@@ -2,10 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 /// Ticks as machines really have them: what a hand that holds the grip gets is what it gets of
 /// ticks in time.
+#include "spidar/chain/brake_table.h"
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
-#include "spidar/loop/brake_table.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/let_go_device.h"
 #include "tests/support/test.h"

@@ -2,10 +2,10 @@
 // Copyright 2026 the gst-spidar authors
 /// A hand holds the grip against a force and lets go: how fast the strings throw it, by the
 /// simulation's truth. Short by default; SPIDAR_SWEEP=1 tries all profiles and more hands.
-#include "spidar/grip/string_grip.h"
+#include "spidar/chain/brake_table.h"
 #include "spidar/limits/released_grip.h"
-#include "spidar/loop/brake_table.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/support/let_go_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"

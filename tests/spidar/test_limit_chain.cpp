@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The lists of the limits of a tick are those of the page.
-#include "spidar/grip/tension_chain.h"
+#include "spidar/chain/tension_chain.h"
+#include "spidar/chain/wrench_chain.h"
 #include "spidar/loop/haptic_loop.h"
-#include "spidar/loop/wrench_chain.h"
 #include "tests/support/test.h"
 
 namespace spidar::test::limit_chain_test {

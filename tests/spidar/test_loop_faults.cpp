@@ -3,9 +3,9 @@
 /// The loop when something fails: a lost pose, a broken string, failed exchanges; and a device that
 /// is not used.
 #include "core/force/motion_rendering.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
-#include "spidar/grip/tension_command.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"

@@ -5,8 +5,8 @@
 /// by default; SPIDAR_TICKS=10000000 is the long run (--suite soak), SPIDAR_SEED selects another
 /// seed, SPIDAR_ROUND the first round of it.
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/support/allocation_count.h"
 #include "tests/support/late_ticks.h"
 #include "tests/support/random_motion.h"

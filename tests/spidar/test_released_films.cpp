@@ -6,8 +6,8 @@
 /// (--suite hazards), which takes another seed each time. It is printed; SPIDAR_SEED repeats one.
 #include <future>
 
+#include "spidar/chain/brake_table.h"
 #include "spidar/limits/released_grip.h"
-#include "spidar/loop/brake_table.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"
 #include "tests/support/test.h"

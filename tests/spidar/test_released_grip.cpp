@@ -2,9 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 /// What a film does to a grip that nobody holds, and that a hand which holds it notices nothing.
 /// All speeds, blows and forces are the simulated device's truth.
+#include "spidar/chain/brake_table.h"
 #include "spidar/grip/grip_motion.h"
 #include "spidar/limits/released_turn.h"
-#include "spidar/loop/brake_table.h"
 #include "tests/support/let_go_device.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/released_grip.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
 /// The tensions of the strings when there is no force.
+#include "spidar/chain/tension_command.h"
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
-#include "spidar/grip/tension_command.h"
+#include "spidar/loop/string_grip.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/random_motion.h"
 #include "tests/support/tampered_device.h"

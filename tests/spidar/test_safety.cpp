@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/grip/tension_command.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/limits/force_limits.h"
 #include "spidar/limits/wrench_limits.h"
 #include "tests/support/test.h"

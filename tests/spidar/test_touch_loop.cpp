@@ -2,7 +2,7 @@
 // Copyright 2026 the gst-spidar authors
 /// A surface in the haptic loop: its force, and when it ends. Without a surface nothing changes.
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
+#include "spidar/loop/string_grip.h"
 #include "spidar/loop/tick_trace.h"
 #include "tests/spidar/loop_driver.h"
 #include "tests/support/allocation_count.h"

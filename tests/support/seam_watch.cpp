@@ -2,9 +2,9 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/support/seam_watch.h"
 
-#include "spidar/grip/tension_command.h"
+#include "spidar/chain/brake_table.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/limits/wrench_limits.h"
-#include "spidar/loop/brake_table.h"
 #include "tests/support/test.h"
 
 namespace spidar::test {

@@ -2,8 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 #include "tests/support/tick_watch.h"
 
+#include "spidar/chain/brake_table.h"
 #include "spidar/limits/wrench_limits.h"
-#include "spidar/loop/brake_table.h"
 #include "spidar/loop/tick_trace.h"
 #include "tests/support/test.h"
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "spidar/devices/sim/simulated_device.h"
-#include "spidar/grip/string_grip.h"
 #include "spidar/loop/haptic_loop.h"
+#include "spidar/loop/string_grip.h"
 
 namespace spidar::test {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/grip_brake.h"
+#include "spidar/chain/grip_brake.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "spidar/loop/brake_table.h"
+#include "spidar/chain/brake_table.h"
 
 namespace spidar {
 namespace {

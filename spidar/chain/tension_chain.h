@@ -7,9 +7,9 @@
 #include <array>
 
 #include "core/grip/string_geometry.h"
+#include "spidar/chain/tension_command.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/grip/tension_command.h"
 #include "spidar/profiles/profile.h"
 
 namespace spidar {

@@ -7,11 +7,11 @@
 #include <cstdint>
 
 #include "core/wrench.h"
+#include "spidar/chain/grip_brake.h"
 #include "spidar/grip/grip.h"
 #include "spidar/limits/force_limits.h"
 #include "spidar/limits/vibration_budget.h"
 #include "spidar/limits/wrench_limits.h"
-#include "spidar/loop/grip_brake.h"
 
 namespace spidar {
 

@@ -5,8 +5,8 @@
 #include <Eigen/Core>
 
 #include "core/wrench.h"
+#include "spidar/chain/brake_table.h"
 #include "spidar/grip/grip_motion.h"
-#include "spidar/loop/brake_table.h"
 #include "spidar/profiles/grip_body.h"
 
 namespace spidar {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright 2026 the gst-spidar authors
-#include "spidar/loop/wrench_chain.h"
+#include "spidar/chain/wrench_chain.h"
 
 namespace spidar {
 

@@ -9,11 +9,11 @@
 #include "core/grip/pose_solver.h"
 #include "core/grip/string_geometry.h"
 #include "core/wrench.h"
+#include "spidar/chain/tension_chain.h"
 #include "spidar/device.h"
 #include "spidar/grip/grip.h"
 #include "spidar/grip/pose_trust.h"
 #include "spidar/grip/reading_gate.h"
-#include "spidar/grip/tension_chain.h"
 #include "spidar/profiles/encoder_scale.h"
 #include "spidar/profiles/profile.h"
 
