@@ -79,7 +79,7 @@ MotionRow area_row() {
   return parsed<AreaSetting>(
       {"area", "Area",
        "Part of the picture that is analysed: 'whole', 'auto' (where it changes and the rest does "
-       "not), or X,Y,WIDTH,HEIGHT in pixels or as fractions of the picture"},
+       "not), or X,Y,WIDTH,HEIGHT in pixels or fractions"},
       parse_area, [](const MotionProperties& properties) { return properties.analyzer.area; },
       [](MotionProperties& properties, const AreaSetting& area) {
         properties.analyzer.area = area;
