@@ -15,11 +15,6 @@ namespace {
 /// object of a single block is confirmed (Track::kConfirmBlocks).
 constexpr int kSettles_pairs = Track::kConfirmBlocks;
 
-/// Until it is known whether a film is in a part of the picture, nothing is felt, at the beginning
-/// for at most this many pairs of pictures: a third of a second. With its surroundings at rest, the
-/// camera of the film would be felt as an object.
-constexpr int kGuess_pairs = 8;
-
 /// The mean apparent motion of the points of a picture at rest is below this: blocks are accurate
 /// to a tenth of a pixel of the field.
 constexpr double kFlickers_px = 0.1;
@@ -189,10 +184,6 @@ bool MotionAnalyzer::measure(const ImageView& picture, int64_t running_ns) {
   } else {
     cadence_.cut(running_ns);
     if (!by_points()) now_->reduced.cut();
-    frame_.clear_motion();
-  }
-  if (finds_area() && area_finder_.is_guess() && now_->pairs <= kGuess_pairs) {
-    frame_.place.is_known = false;
     frame_.clear_motion();
   }
   return true;
