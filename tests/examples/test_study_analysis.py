@@ -228,7 +228,7 @@ class Report(unittest.TestCase):
                 for n, belief in ((1, 2), (2, 0), (3, 4), (4, 2)):
                     records.append_row(path, ".briefings", [], [f"P{n}", "believed", briefing.BELIEFS[belief]])
                 for row in ["P1", 0.06, 0.1, 20, ""], ["P2", 0.1, 0.2, "", 60], ["P3", "", "", "", ""], ["P4", 0.2, 0.3, 10, ""]:
-                    records.append_row(path, ".thresholds", records.THRESHOLD_COLUMNS, row)
+                    records.append_row(path, ".thresholds", records.THRESHOLD_COLUMNS, [*row, 8, chain.utc_now()])
             with contextlib.redirect_stdout(io.StringIO()):
                 text = report.report(records.read_answers(path), [path])
         self.assertNotIn("EXPLORATORY", text)
