@@ -32,8 +32,9 @@ void Hold<Value, Reading>::watch(LinkFault fault) {
   const int64_t late_ns = last_ns_ == 0 ? 0 : now_ns - last_ns_;
   last_ns_ = now_ns;
   missing_.count(fault == LinkFault::kNone);
-  if (fault == LinkFault::kSuspended)
+  if (fault == LinkFault::kSuspended) {
     throw ProcessSuspended(loss_text(held_.name(), fault, late_ns));
+  }
   if (is_lost(fault) || missing_.is_lost()) {
     throw DeviceError(loss_text(held_.name(), held_.health().last_fault, late_ns));
   }

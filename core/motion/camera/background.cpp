@@ -271,8 +271,9 @@ Background BackgroundEstimator::propose(const BackgroundVotes& votes) {
   }
   const bool is_more_general =
       !is_explained(current.model) && find_more_general(start, votes, current);
-  if (!is_more_general && current.model.kind != ModelKind::kStill)
+  if (!is_more_general && current.model.kind != ModelKind::kStill) {
     find_simpler(start, votes, current);
+  }
   if (!is_proven(current, votes)) return {MotionModel(), noise_px_, 0, false};
   return {current.model, noise_px_, current.coverage, true, votes.of_coarse_blocks};
 }

@@ -369,8 +369,9 @@ class Follower {
     if ((toggles && !state_.can_pause) || (request.position_ns && !state_.can_seek)) {
       return print_once(short_name(player_->bus_name()) + kRefuses);
     }
-    if (request.position_ns)
+    if (request.position_ns) {
       player_->seek(*request.position_ns, *request.position_ns - position_ns_);
+    }
     if (toggles) player_->toggle();
   }
 

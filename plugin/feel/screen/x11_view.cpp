@@ -285,8 +285,9 @@ class X11View : public View {
     if (!XGetWindowAttributes(display_, window_, &now)) return WindowVisibility::kClosed;
     if (is_whole()) return WindowVisibility::kWhole;
     if (now.map_state != IsViewable) return WindowVisibility::kHidden;
-    if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1))
+    if (!can_read(0, 0) || !can_read(now.width - 1, now.height - 1)) {
       return WindowVisibility::kOutside;
+    }
     if (visibility_ == VisibilityFullyObscured) return WindowVisibility::kCovered;
     const bool is_part = visibility_ == VisibilityPartiallyObscured && is_covered_to_stay(now);
     return is_part ? WindowVisibility::kPart : WindowVisibility::kWhole;
@@ -409,8 +410,9 @@ std::unique_ptr<View> view_of_x11(const std::string& what) {
   }
   const Window window = chosen_window(connection.get(), what);
   auto view = std::make_unique<X11View>(std::move(connection), window);
-  if (const std::string words = view->initial_message(); !words.empty())
+  if (const std::string words = view->initial_message(); !words.empty()) {
     follow::print_message(words);
+  }
   return view;
 }
 

@@ -166,8 +166,9 @@ LinkFault Falcon::greet_loader() noexcept {
     if (std::equal(answer.begin() + zero, answer.end(), falcon::kHelloAnswer.begin())) {
       return set_line(falcon::kLoadLine);
     }
-    if (i + 1 == kHellos)
+    if (i + 1 == kHellos) {
       fault = loader_fault == LinkFault::kNone ? LinkFault::kWrongReply : loader_fault;
+    }
   }
   return fault;
 }
