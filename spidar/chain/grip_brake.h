@@ -29,9 +29,8 @@ struct FadeBand {
 /// - Place: a force fades out while it pushes the grip away from where it has been for some
 ///   seconds. The brake does not see the spring of a loose hand, so that spring must not store
 ///   much.
-/// - Rest: the wrench goes to rest when the grip or its surface has been fast for kFast_s, less
-/// half
-///   of the time in which it was slow. After kRest_s it returns within kReturn_s.
+/// - Rest: the wrench goes to rest when the grip or its surface has been fast for kFast_s; half of
+///   the time in which it was slow is subtracted. After kRest_s it returns within kReturn_s.
 ///
 /// A force that fades by speed or energy falls at once along the motion, without a slew limit: 10 N
 /// that fell at 300 N/s would throw a grip of 50 g at 3.5 m/s. By place, and across the motion, a
@@ -92,7 +91,7 @@ class GripBrake {
   bool knows_place_ = false;
   Eigen::Vector3d place_m_ = Eigen::Vector3d::Zero();  ///< where the grip has been for some seconds
   Eigen::Vector3d away_m_ = Eigen::Vector3d::Zero();   ///< from there to the grip
-  double fast_s_ = 0;     ///< how long the grip has been fast, less half of the slow time
+  double fast_s_ = 0;     ///< time for which the grip was fast, minus half of the slow time
   double fraction_ = 1;   ///< the fraction of the wanted wrench that passes
   double resting_s_ = 0;  ///< time until the wrench begins to return
   // Results of the last apply().

@@ -253,7 +253,7 @@ GripMotion spin(double turn_rad_s) {
   return spins;
 }
 
-/// The motion of a grip that has gone at `speed_m_s` for 0.1 s.
+/// The motion of a grip that has had this velocity for 0.1 s.
 GripMotion flight_along(const Eigen::Vector3d& velocity_m_s) {
   GripMotion flies;
   for (int i = 0; i < 100; ++i) {
