@@ -84,8 +84,8 @@ MotionRow area_row() {
       [](MotionProperties& properties, const AreaSetting& area) {
         properties.analyzer.area = area;
       },
-      "'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, either fractions of the picture or whole "
-      "numbers of pixels, of which width and height are at least " +
+      "'whole' nor 'auto' nor X,Y,WIDTH,HEIGHT, four fractions of the picture from 0 to 1, or four "
+      "whole numbers of pixels with a width and height of at least " +
           std::to_string(kMinSide_px));
 }
 
