@@ -99,7 +99,7 @@ class InverseService {
   std::atomic<bool> broken{false};  ///< answers with invalid JSON
   std::atomic<int> answers{1};      ///< to each message
   std::atomic<int> states{0};       ///< states made so far; each has its number
-  std::atomic<int> sent{0};
+  std::atomic<int> unsent{0};       ///< answers that are due
   std::atomic<int> clients{0};  ///< connections so far
   std::atomic<int> messages{0};
   std::atomic<int64_t> let_go_ns{0};  ///< when the first force became zero
@@ -122,6 +122,7 @@ class InverseService {
     ++clients;
     newest_ = socket;
     due = 1;
+    ++unsent;
     lws_callback_on_writable(socket);
   }
 
@@ -136,6 +137,7 @@ class InverseService {
       return;
     }
     due += answers;
+    unsent += answers;
     lws_callback_on_writable(socket);
   }
 
@@ -177,7 +179,7 @@ class InverseService {
     const std::string answer = std::string(LWS_PRE, '\0') + text();
     std::vector<uint8_t> bytes(answer.begin(), answer.end());
     lws_write(socket, bytes.data() + LWS_PRE, bytes.size() - LWS_PRE, LWS_WRITE_TEXT);
-    ++sent;
+    --unsent;
     if (due > 0) lws_callback_on_writable(socket);
   }
 
