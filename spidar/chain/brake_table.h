@@ -17,14 +17,14 @@ constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and
 constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed: test LateTicks
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it
 constexpr double kFadeTo_m_s = 1.0;      // no force along the motion above: 100 g have kReleased_J
-constexpr double kDamping_1_s = 150;     // damping / mass: stable up to π/2 / delay, 157 for 10 ms
+constexpr double kDamping_N_s_m = 4.5;   // 5.1: a grip of 20 g is shaken for ever, see ComesToRest
 constexpr double kAimed_rad = 0.5;       // after this rotation, a wrench still acts with cos = 0.88
 
 // --- Energy
-constexpr double kHeavyFrom_m_s = 0.45;  // no film of 3 N moves a hand of 300 N/m faster
-constexpr double kHeavyTo_m_s = 0.57;    // at 0.577, 300 g have kReleased_J
+constexpr double kHeavyFrom_m_s = 0.47;  // 0.45: a hand of 300 N/m notices it after kHeavyWork_J
+constexpr double kHeavyTo_m_s = 0.5;     // 0.52: a film of 10 N gives 300 g more than 67 mJ
 constexpr double kLightWork_J = 0.012;   // 0.008: a hand of 300 N/m notices it, at 2 Hz
-constexpr double kHeavyWork_J = 0.026;   // half of kReleased_J, for lags and the return
+constexpr double kHeavyWork_J = 0.022;   // 0.02: a hand of 300 N/m notices it
 
 // --- Place
 constexpr double kNear_m = 0.03;  // 3 N push a light hand of 100 N/m this far; 0.025: a hand that

@@ -42,11 +42,13 @@ double aimed_at(double turn_rad) {
   return std::clamp(2 - turn_rad / kAimed_rad, 0.0, 1.0);
 }
 
-/// Limits the component of `vector` along `velocity` to the component of `most`.
-Eigen::Vector3d without_excess(const Eigen::Vector3d& vector, const Eigen::Vector3d& most,
-                               const Eigen::Vector3d& velocity) {
-  const double excess = (vector - most).dot(velocity);
-  return excess > 0 ? vector - excess / velocity.squaredNorm() * velocity : vector;
+/// Reduces `vector` to the fraction `left`, except for its component against `velocity`.
+Eigen::Vector3d without_push(const Eigen::Vector3d& vector, const Eigen::Vector3d& velocity,
+                             double left) {
+  if (left >= 1) return vector;
+  const Eigen::Vector3d braking =
+      std::min(0.0, vector.dot(velocity)) / velocity.squaredNorm() * velocity;
+  return braking + left * (vector - braking);
 }
 
 }  // namespace
@@ -99,16 +101,13 @@ double GripBrake::heaviness() const noexcept {
   return std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0);
 }
 
-/// The mass that is damped: twice the energy that the strings have given, divided by the square of
-/// the speed. If the strings have given less than the lightest grip has at this speed, a hand moves
-/// the grip and must not feel the damper, so the mass is zero; except for a grip that is not held.
-double GripBrake::damped_kg(double speed_m_s) const noexcept {
-  const double mass_kg = std::clamp(2 * work_J_ / std::max(speed_m_s * speed_m_s, 1e-6),
-                                    kLightestGrip_kg, kHeaviestGrip_kg);
-  if (!held()) return mass_kg;
+/// The damping of the speed above the FadeBand. If the strings have given less energy than the
+/// lightest grip has at this speed, a hand moves the grip and must not feel the damper.
+double GripBrake::damping_N_s_m(double speed_m_s) const noexcept {
+  if (!held()) return kDamping_N_s_m;
   const double least_m_s = std::max(speed_m_s - kSpeedError_m_s, 1e-3);
   const double thrown = 2 * work_J_ / (kLightestGrip_kg * least_m_s * least_m_s);
-  return mass_kg * std::clamp(2 * thrown - 1, 0.0, 1.0);
+  return kDamping_N_s_m * std::clamp(2 * thrown - 1, 0.0, 1.0);
 }
 
 /// The largest energy of the rotation and the energy that the strings at rest have stored are
@@ -121,7 +120,7 @@ FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
   const double turn_J = 0.5 * body_.most_kg_m2 * ahead_.angular_rad_s.squaredNorm();
   const double left = std::sqrt(std::clamp(1 - (turn_J + stored_J_) / kReleased_J, 0.0, 1.0));
   const double share = std::max(left, kSpeedError_m_s / from_m_s);
-  return {share * from_m_s, share * to_m_s, kDamping_1_s * damped_kg(speed_m_s)};
+  return {share * from_m_s, share * to_m_s, damping_N_s_m(speed_m_s)};
 }
 
 Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
@@ -133,16 +132,8 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   const double aimed = aimed_at(turn_rad_s.norm() * (kLoop_s + drive_lag_s_));
   damper_ = aimed * Wrench{damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
                            damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
-  const double left = left_at(ahead_.linear_m_s.norm(), band_);
-  const double left_of_turn = left_at(arm_m * ahead_.angular_rad_s.norm(), band_);
   const double left_there = std::max(0.0, (kFar_m - away_m_.norm()) / (kFar_m - kNear_m));
-  // The speed comes last: a force without its part outwards may push more along the motion.
-  const Eigen::Vector3d near_N = faded(wanted.force_N, away_m_, left_there);
-  // The strings cannot exert both: a torque takes tension that the linear damper needs.
-  allowed_ = aimed * fraction_ *
-             Wrench{faded(near_N, ahead_.linear_m_s, left),
-                    left * faded(wanted.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
-  return allowed_;
+  return aimed * fraction_ * Wrench{faded(wanted.force_N, away_m_, left_there), wanted.torque_Nm};
 }
 
 bool GripBrake::acts() const noexcept {
@@ -151,10 +142,12 @@ bool GripBrake::acts() const noexcept {
   return resting_s_ > 0 || left_at(speed_m_s, band_) < 1;
 }
 
-Wrench GripBrake::limit(const Wrench& slewed, bool fresh) const noexcept {
-  if (!fresh) return left_at(ahead_.linear_m_s.norm(), band_) * slewed;
-  return {without_excess(slewed.force_N, allowed_.force_N, ahead_.linear_m_s),
-          without_excess(slewed.torque_Nm, allowed_.torque_Nm, ahead_.angular_rad_s)};
+Wrench GripBrake::limit(const Wrench& slewed) const noexcept {
+  const double left = left_at(ahead_.linear_m_s.norm(), band_);
+  const double left_of_turn = left_at(body_.surface_m * ahead_.angular_rad_s.norm(), band_);
+  // The strings cannot exert both: a torque takes tension that the linear damper needs.
+  return {without_push(slewed.force_N, ahead_.linear_m_s, left),
+          left * without_push(slewed.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
 }
 
 }  // namespace spidar

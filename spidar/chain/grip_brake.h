@@ -11,7 +11,7 @@
 
 namespace spidar {
 
-/// The speeds between which a force along the motion fades out, and the damping above `from_m_s`.
+/// The speeds between which a force fades out, and the damping above `from_m_s`.
 struct FadeBand {
   double from_m_s = 0, to_m_s = 0;
   double damping_N_s_m = 0;
@@ -19,10 +19,10 @@ struct FadeBand {
 
 /// Reduces a wrench that would accelerate a released grip, by four measures:
 ///
-/// - Speed: a force along the velocity fades out between the speeds of a FadeBand, and a torque
-///   with the speed of the grip's surface. The whole torque also fades out with the speed of the
-///   grip, because the damper needs the strings. A damper acts above the lower speed. The speed is
-///   extrapolated, with the present acceleration, to the time at which the force acts.
+/// - Speed: a force that does not brake the motion fades out between the speeds of a FadeBand, and
+///   a torque with the speed of the grip's surface. The whole torque also fades out with the speed
+///   of the grip, because the damper needs the strings. A damper acts above the lower speed. The
+///   speed is extrapolated, with the present acceleration, to the time at which the force acts.
 /// - Energy: the speeds of the band are lower after the strings have given the grip more energy
 ///   than a light one has at these speeds. The energy of its rotation and of the strings at rest
 ///   lowers them further.
@@ -32,10 +32,10 @@ struct FadeBand {
 /// - Rest: the wrench goes to rest when the grip or its surface has been fast for kFast_s; half of
 ///   the time in which it was slow is subtracted. After kRest_s it returns within kReturn_s.
 ///
-/// A force that fades by speed or energy falls at once along the motion, without a slew limit: 10 N
-/// that fell at 300 N/s would throw a grip of 50 g at 3.5 m/s. By place, and across the motion, a
-/// force falls at the slew limit, at which every force returns. The constants are in brake_table.h,
-/// with their sources.
+/// A force that fades by speed or energy falls and returns at once, without a slew limit: 10 N that
+/// fell at 300 N/s would throw a grip of 50 g at 3.5 m/s, and 9 N across the motion turned it until
+/// they pushed, to 1.8 m/s. By place, and at rest, a force falls and returns at the slew limit. The
+/// constants are in brake_table.h, with their sources.
 ///
 /// A still hand that follows a film of 3 N notices none of these measures: with 300 N/m and 8 N s/m
 /// it moves at no more than 0.45 m/s when the force is reversed.
@@ -53,14 +53,12 @@ class GripBrake {
 
   // Call these in each tick, in this order:
 
-  /// Returns the wanted wrench, reduced by the brake.
+  /// Returns the wanted wrench, reduced by place and rest.
   Wrench apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept;
   /// Whether limit() and damper() may change the wrench.
   bool acts() const noexcept;
-  /// Reduces `slewed`, which follows the result of the last apply() at the slew limit, to no more
-  /// than that result along the motion. If not `fresh`, `slewed` is ramping to zero, and all of it
-  /// fades.
-  Wrench limit(const Wrench& slewed, bool fresh) const noexcept;
+  /// Reduces `slewed`, which follows the result of apply() at the slew limit, by speed and energy.
+  Wrench limit(const Wrench& slewed) const noexcept;
   /// The wrench that slows the grip down, to add to the result of limit().
   const Wrench& damper() const noexcept { return damper_; }
   /// Updates the brake with the position and motion after an exchange, `dt_s` after the last call,
@@ -78,7 +76,7 @@ class GripBrake {
  private:
   void rest_or_return(const GripVelocity& velocity, double dt_s) noexcept;
   double heaviness() const noexcept;
-  double damped_kg(double speed_m_s) const noexcept;
+  double damping_N_s_m(double speed_m_s) const noexcept;
   FadeBand band_at(double speed_m_s) const noexcept;
 
   const GripBody body_;
@@ -97,7 +95,6 @@ class GripBrake {
   // Results of the last apply().
   GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
   FadeBand band_;
-  Wrench allowed_;
   Wrench damper_;
 };
 

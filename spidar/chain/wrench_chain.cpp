@@ -12,17 +12,15 @@ const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
     {"Vibration", "the daily action value of Directive 2002/44/EC",
      "so that a force becomes weaker when it has shaken the hand for long",
      &WrenchChain::vibration},
-    {"Brake",
-     "no force along a motion that is faster than a hand's, outwards from where the grip has been, "
-     "or at rest",
+    {"Brake", "no force outwards from where the grip has been, nor for a second after it was fast",
      "because nobody may hold the grip", &WrenchChain::brake},
     {"Rates", "300 N/s and 10 N m/s unless others are set, and a ramp of 40 ms to rest and back",
      "so that a hand has the time to withstand", &WrenchChain::rates},
     {"In effect", "the limits that are set, or that fall to these at the rates",
      "because the wrench of before may be above them", &WrenchChain::effect},
     {"Brake at once",
-     "along the motion, no more than the brake has left, again within the limits in effect",
-     "because a force that fell at the rates would throw the grip", &WrenchChain::brake_at_once},
+     "less force that does not brake the motion, and less torque, the faster the grip is",
+     "because a force that fell at the rates would throw it", &WrenchChain::brake_at_once},
     {"Damper", "with it, the limits in effect, or what the strings exert at rest",
      "because it takes back what these have given", &WrenchChain::damper},
 }};
@@ -63,12 +61,8 @@ Wrench WrenchChain::effect(const Wrench& wrench) noexcept {
   return limit_total(wrench, in_effect);
 }
 
-/// The parts of a wrench across the motion and against it may exceed the limits together.
 Wrench WrenchChain::brake_at_once(const Wrench& wrench) noexcept {
-  if (!brakes) return wrench;
-  const Wrench left = limit_total(grip_brake.limit(wrench, fresh), in_effect);
-  rate_limits.continue_from(left);
-  return left;
+  return brakes ? grip_brake.limit(wrench) : wrench;
 }
 
 Wrench WrenchChain::damper(const Wrench& wrench) noexcept {

@@ -50,9 +50,6 @@ class WrenchLimits {
   /// `fresh`, it is ignored, and the last applied wrench ramps to exactly zero.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
-  /// The next apply() continues from `at`, to which the brake has reduced the last result.
-  void continue_from(const Wrench& at) noexcept { last_ = at; }
-
   /// Call this when the device did not receive the result of the last apply(): the next call
   /// continues from the previous wrench.
   void undo() noexcept;

@@ -133,7 +133,6 @@ void print(double most, const char* unit, const Axis& axis) {
 }  // namespace
 
 void prove_released() {
-  constexpr double kDamping_N_s_m = brake::kDamping_1_s * kLightestGrip_kg;
   constexpr double kWrong_m_s = brake::kSpeedError_m_s;
   constexpr double kArm_m = GripBody::kBall_m;
   constexpr GripBody kBody = GripBody::inferred(kArm_m);
@@ -144,7 +143,7 @@ void prove_released() {
       const double most_N = usual ? kDefaultForce_N : released_force_N(lag_s);
       const double most_Nm = usual ? kDefaultTorque_Nm : released_torque_Nm(kBody, kArm_m, lag_s);
       for (const double mass_kg : {kLightestGrip_kg, 0.1}) {
-        print(most_N, "N", {most_N, mass_kg, lag_s, kDamping_N_s_m, kWrong_m_s});
+        print(most_N, "N", {most_N, mass_kg, lag_s, brake::kDamping_N_s_m, kWrong_m_s});
       }
       print(most_Nm, "N m", {most_Nm / kArm_m, inertia_kg, lag_s, turn_N_s_m, kWrong_m_s});
     }

@@ -57,7 +57,7 @@ TEST(LimitChains, RatesTakeWhatIsNotFiniteForNothing) {
   VibrationBudget vibration(profile.geometry.grip_radius_m());
   GripBrake brake(profile.body(), profile.drive_lag_s);
   WrenchLimits rates;
-  rates.continue_from({{1, 0, 0}, {0, 0, 0}});
+  rates.apply({{1, 0, 0}, {0, 0, 0}}, true, 1, limits);
   WrenchChain chain{limits, limits, limits, vibration, brake, rates, {}, {}, true, 1e-3, 1e-3};
   for (const WrenchChain::Step& step : WrenchChain::kSteps) {
     if (std::string(step.name) != "Rates") continue;

@@ -125,6 +125,7 @@ class SeldomDevice final : public StringDevice {
     grip_.exchange_at(++ticks_ * kTick_ns);
     return ticks_ % every_ == 0 ? grip_.exchange(volts, reading) : LinkFault::kTimeout;
   }
+  double speed_m_s() const { return grip_.speed_m_s(); }
   double turn_rad_s() const { return grip_.state().angular_velocity_rad_s.norm(); }
 
  private:
@@ -133,45 +134,54 @@ class SeldomDevice final : public StringDevice {
   int64_t ticks_ = 0;
 };
 
-/// A torque turns a grip in no hand for a moment, and the film pauses. The damper of its turn must
-/// not shake it for ever: damped as if its mass were at its radius, a light grip went on at 17 to
-/// 250 rad/s. A second later, only the friction of the strings turns it on, if anything: half of
-/// the speed from which the brake acts on the largest grip is left.
-TEST(ReleasedGrip, ItsTurnComesToRest) {
-  constexpr double kAtRest_rad_s = 0.5 * brake::kFadeFrom_m_s / 0.05;
-  SafetyLimits limits;
-  limits.max_torque_Nm = 9;  // more than any device gives
+/// A force and a torque move a grip in no hand for a moment, and the film pauses. The dampers must
+/// not shake the grip for ever: too strong for its mass or its inertia, they kept 20 g at 2.4 m/s
+/// and turned a light grip at 250 rad/s. A second later, it is slower than the brake acts on it, as
+/// far as that knows its speed: the friction of the strings does the rest.
+TEST(ReleasedGrip, ComesToRest) {
+  constexpr double kAtRest_m_s = brake::kHeavyFrom_m_s + brake::kSpeedError_m_s;
+  constexpr double kLargestGrip_m = 0.05;
+  constexpr int kChoices = 5;
   for (const std::string& name : list_profiles()) {
-    Profile profile = load_profile(name);
-    for (const auto& [inertia, every, lag_s] :
-         {std::tuple(0.25, 1, 0.002), {0.25, 3, 0.002}, {1.0, 1, 0.045}, {4.0, 3, 0.01}}) {
-      profile.drive_lag_s = lag_s;
-      GripModel model = released(profile, kLightestGrip_kg);
+    for (int choice = 0; choice < 1 << kChoices; ++choice) {
+      const auto either = [&](int bit, double one, double other) {
+        return (choice >> bit & 1) != 0 ? one : other;
+      };
+      Profile profile = load_profile(name);
+      profile.drive_lag_s = either(0, 0, 0.045);
+      GripModel model = released(profile, either(1, 0.02, 0.6));
+      const double inertia = either(2, 0.25, 4);
       model.inertia_kg_m2 *= inertia;
+      const int every = either(3, 1, 3);
+      SafetyLimits limits;
+      limits.max_force_N = either(4, kDefaultForce_N, 20);  // more than any device gives
+      limits.max_torque_Nm = either(4, kDefaultTorque_Nm, 9);
       SeldomDevice device(profile, model, every);
       const auto loop =
           std::make_unique<HapticLoop>(std::make_unique<StringGrip>(profile, device), limits);
       loop->open();
       int64_t now_ns = 0;
       const auto run = [&](int ticks) {
-        double most_rad_s = 0;
+        double most_m_s = 0;
         for (int i = 0; i < ticks; ++i) {
           now_ns += kTick_ns;
           loop->tick(now_ns, now_ns);
-          most_rad_s = std::max(most_rad_s, device.turn_rad_s());
+          most_m_s = std::max({most_m_s, device.speed_m_s(), kLargestGrip_m * device.turn_rad_s()});
         }
-        return most_rad_s;
+        return most_m_s;
       };
       run(250);
       loop->set_playback_clock({now_ns, 0, 1, true});
-      loop->schedule({0, 60 * kTick_ns, {{0, 0, 0}, {0, 0, limits.max_torque_Nm}}});
-      const double first_rad_s = run(100);
+      loop->schedule(
+          {0, 60 * kTick_ns, {{0, 0, limits.max_force_N}, {0, 0, limits.max_torque_Nm}}});
+      const double first_m_s = run(100);
       loop->set_playback_clock({now_ns, 0, 1, false});
       run(1000);
-      const double last_rad_s = run(300);
-      EXPECT_LE(last_rad_s, kAtRest_rad_s)
-          << name << ", " << inertia << " times the inertia, an answer in " << every
-          << " ticks, a lag of " << lag_s << " s: " << first_rad_s << " rad/s at first";
+      EXPECT_LE(run(300), kAtRest_m_s)
+          << name << ", " << model.mass_kg << " kg, " << inertia
+          << " times the inertia, an answer in " << every << " ticks, a lag of "
+          << profile.drive_lag_s << " s, up to " << limits.max_force_N << " N: " << first_m_s
+          << " m/s at first";
     }
   }
 }
@@ -232,8 +242,8 @@ TEST(ReleasedGrip, WhatIsNotANumberDoesNotKeepTheBrakeFromActing) {
     grip.tick();
     const TickRecord last = grip.snapshot().last;
     if (is_bad) {
-      // Rest is on its way from up to 3 N at the slew limit across the motion only.
-      EXPECT_LE(last.commanded.force_N.dot(last.velocity.linear_m_s.normalized()), 0.3) << i;
+      // Rest is on its way from at most 3 N at the slew limit, of which the brake leaves a part.
+      EXPECT_LE(last.commanded.force_N.norm(), 3 - 0.3 * (1 - 1e-9)) << i;
     }
     const double along_N = last.commanded.force_N.dot(last.velocity.linear_m_s.normalized());
     is_bad = !is_bad && last.brakes && along_N > 1;
@@ -328,7 +338,7 @@ TEST(GripBrake, AForceThatFadesByPlacePushesNoFastGrip) {
   brake.update(Eigen::Vector3d::Zero(), {}, 0, 1e-6);
   const GripMotion inwards = flight_along({-0.8, 0.8, 0});
   brake.update({1.1 * brake::kFar_m, 0, 0}, inwards, 0, 1e-6);
-  const Wrench left = brake.apply({{1, 1, 0}, {}}, inwards, 1e-6);
+  const Wrench left = brake.limit(brake.apply({{1, 1, 0}, {}}, inwards, 1e-6));
   EXPECT_LE(left.force_N.dot(inwards.velocity().linear_m_s), 1e-12);
 }
 

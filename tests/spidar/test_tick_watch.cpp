@@ -141,6 +141,8 @@ class Rows {
     file_ << row;
   }
 
+  void want(double force_N) { record_.wanted.force_N.x() = force_N; }
+
   void check() {
     file_.flush();
     TickWatch().check_trace(path_);
@@ -181,6 +183,7 @@ TEST(TickWatch, TellsInATraceWhenTheBrakeActs) {
                         Case{0.01, true, 0.2, -2, "a grip that is slow"}}) {
     const TemporaryFolder folder;
     Rows rows(folder, c.speed_m_s);
+    rows.want(0.2);
     for (int i = 0; i < 10; ++i) rows.add(c.from_N, true, c.brakes);
     rows.add(c.to_N, true, c.brakes);
     if (c.fault == nullptr)

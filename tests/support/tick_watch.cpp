@@ -112,6 +112,16 @@ void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
 
   motion_.update(record.pose, record.monotonic_ns);
 
+  // On its way from s to w, a force comes nearer to w by (s − w) / (s + w) of its way at least.
+  const double wanted_N = limit_total(record.wanted, limits).force_N.norm();
+  if (!following_) slewed_N_ = largest_N_;
+  if (wanted_N >= slewed_N_) {
+    slewed_N_ = std::min(wanted_N, slewed_N_ + rate_N_s * dt_s);
+  } else if (record.acknowledged) {
+    slewed_N_ -= limits.max_slew_N_s * dt_s * (slewed_N_ - wanted_N) / (slewed_N_ + wanted_N);
+    slewed_N_ = std::max(slewed_N_, wanted_N);
+  }
+
   const Wrench& now = record.commanded;
   if (!now.is_finite()) fail(record, "not finite");
   // A damper takes back what the strings at rest give, whatever the limit.
@@ -127,8 +137,7 @@ void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
   const bool lost = record.device == DeviceState::kLost || last_.device == DeviceState::kLost;
   const bool brakes = record.brakes || last_.brakes;
   if (following_ && !lost && brakes) {
-    const std::string fault =
-        fault_of_brake(record, limit_total(record.wanted, limits).force_N, rate_N_s * dt_s);
+    const std::string fault = fault_of_brake(record);
     if (!fault.empty()) fail(record, fault);
   }
   if (following_ && !lost && !brakes) {
@@ -159,27 +168,19 @@ void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
   if (now.stacked().norm() > 0) ++felt_;
 }
 
-/// Checks the brake, which ends the wanted force at once, and adds a damper against the motion. So
-/// the power of the force is at most that before or that of the wanted force, or zero; and the
-/// force is at most the one before or the wanted one, and the strongest damper's at this speed.
-/// `most_N` is the largest change of a force in this tick. The error of the speed that the brake
-/// sees is kSpeedError_m_s at most.
-std::string TickWatch::fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
-                                      double most_N) const {
-  constexpr double kDamping_N_s_m = brake::kDamping_1_s * kHeaviestGrip_kg;
+/// Checks the brake, which leaves a part of the force that follows the wanted one at the slew
+/// limit, and adds a damper against the motion. The error of the speed that the brake sees is
+/// kSpeedError_m_s at most.
+std::string TickWatch::fault_of_brake(const TickRecord& record) const {
   constexpr double kFrom_m_s = brake::kSpeedError_m_s;  // no band of the brake begins below
   const Eigen::Vector3d& now_N = record.commanded.force_N;
-  const Eigen::Vector3d& before_N = last_.commanded.force_N;
   const Eigen::Vector3d velocity_m_s = motion_.velocity_in(0).linear_m_s;
   const double speed_m_s = velocity_m_s.norm();
-  const double wrong_W =
-      brake::kSpeedError_m_s * (now_N.norm() + std::max(before_N.norm(), wanted_N.norm()));
-  const double most_W =
-      std::max({0.0, before_N.dot(velocity_m_s), wanted_N.dot(velocity_m_s)}) + most_N * speed_m_s;
-  if (now_N.dot(velocity_m_s) > most_W + wrong_W + 1e-12) return "the brake pushes the grip";
+  const double most_W = slewed_N_ * speed_m_s + brake::kSpeedError_m_s * now_N.norm();
+  if (now_N.dot(velocity_m_s) > most_W + 1e-12) return "the brake pushes the grip";
   const double damper_N =
-      kDamping_N_s_m * std::max(0.0, speed_m_s + brake::kSpeedError_m_s - kFrom_m_s);
-  const double largest_N = std::max(before_N.norm(), wanted_N.norm()) + most_N + damper_N;
+      brake::kDamping_N_s_m * std::max(0.0, speed_m_s + brake::kSpeedError_m_s - kFrom_m_s);
+  const double largest_N = slewed_N_ + damper_N;
   return now_N.norm() > largest_N + 1e-12 ? "the brake acts on a grip that is slow" : "";
 }
 

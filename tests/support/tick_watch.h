@@ -36,8 +36,7 @@ class TickWatch {
   const TickRecord& last() const { return last_; }
 
  private:
-  std::string fault_of_brake(const TickRecord& record, const Eigen::Vector3d& wanted_N,
-                             double most_N) const;
+  std::string fault_of_brake(const TickRecord& record) const;
   void look_at_age(const TickRecord& record, double dt_s);
   void fail(const TickRecord& record, const std::string& what);
 
@@ -47,6 +46,7 @@ class TickWatch {
   GripMotion motion_;
   double largest_N_ = 0;  // the largest limits so far
   double largest_Nm_ = 0;
+  double slewed_N_ = 0;      // the most that the force at the slew limit can be
   double unanswered_s_ = 0;  // since the last acknowledged tick
   double stopped_s_ = 0;
   int64_t newest_frame_ns_ = INT64_MIN;
