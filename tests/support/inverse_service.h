@@ -100,7 +100,7 @@ class InverseService {
   std::atomic<int> answers{1};      ///< to each message
   std::atomic<int> states{0};       ///< states made so far; each has its number
   std::atomic<int> unsent{0};       ///< answers that are due
-  std::atomic<int> clients{0};  ///< connections so far
+  std::atomic<int> clients{0};      ///< connections so far
   std::atomic<int> messages{0};
   std::atomic<int64_t> let_go_ns{0};  ///< when the first force became zero
 
