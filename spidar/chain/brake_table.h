@@ -16,7 +16,7 @@ namespace spidar::brake {
 constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and half a tick of hold
 constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed: test LateTicks
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it
-constexpr double kFadeTo_m_s = 1.0;      // no force along the motion above: 100 g have kReleased_J
+constexpr double kFadeTo_m_s = 1.0;      // only a force that brakes above: 100 g have kReleased_J
 constexpr double kDamping_N_s_m = 4.5;   // 5.1: a grip of 20 g is shaken for ever, see ComesToRest
 constexpr double kAimed_rad = 0.5;       // after this rotation, a wrench still acts with cos = 0.88
 

@@ -18,7 +18,7 @@ double left_at(double speed_m_s, const FadeBand& band) {
   return std::clamp((band.to_m_s - speed_m_s) / (band.to_m_s - band.from_m_s), 0.0, 1.0);
 }
 
-/// Reduces the component of `vector` along `along` to the fraction `left`.
+/// Reduces the component of `vector` along `along`, unless it is against it, to `left` of it.
 Eigen::Vector3d faded(const Eigen::Vector3d& vector, const Eigen::Vector3d& along, double left) {
   if (left >= 1) return vector;
   return vector - (1 - left) * std::max(0.0, vector.dot(along)) / along.squaredNorm() * along;
@@ -113,41 +113,41 @@ double GripBrake::damping_N_s_m(double speed_m_s) const noexcept {
 /// The largest energy of the rotation and the energy that the strings at rest have stored are
 /// subtracted from kReleased_J, and the speeds are lower accordingly. Otherwise a film would push a
 /// heavy grip to where no string can brake it, and the strings at rest would throw it back.
-FadeBand GripBrake::band_at(double speed_m_s) const noexcept {
+FadeBand GripBrake::fade_band() const noexcept {
   const double heavy = heaviness();
   const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s);
   const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s);
   const double turn_J = 0.5 * body_.most_kg_m2 * ahead_.angular_rad_s.squaredNorm();
   const double left = std::sqrt(std::clamp(1 - (turn_J + stored_J_) / kReleased_J, 0.0, 1.0));
   const double share = std::max(left, kSpeedError_m_s / from_m_s);
-  return {share * from_m_s, share * to_m_s, damping_N_s_m(speed_m_s)};
+  return {share * from_m_s, share * to_m_s};
 }
 
 Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
   const auto& [velocity_m_s, turn_rad_s] = motion.velocity();
   rest_or_return(motion.velocity(), dt_s);
   ahead_ = motion.velocity_in(kLoop_s + drive_lag_s_);
-  band_ = band_at(velocity_m_s.norm());
-  const double arm_m = body_.surface_m;
-  const double aimed = aimed_at(turn_rad_s.norm() * (kLoop_s + drive_lag_s_));
-  damper_ = aimed * Wrench{damped(ahead_.linear_m_s, 1, band_, band_.damping_N_s_m),
-                           damped(ahead_.angular_rad_s, arm_m, band_, turn_damping(body_))};
+  band_ = fade_band();
+  aimed_ = aimed_at(turn_rad_s.norm() * (kLoop_s + drive_lag_s_));
+  damper_ =
+      aimed_ * Wrench{damped(ahead_.linear_m_s, 1, band_, damping_N_s_m(velocity_m_s.norm())),
+                      damped(ahead_.angular_rad_s, body_.surface_m, band_, turn_damping(body_))};
   const double left_there = std::max(0.0, (kFar_m - away_m_.norm()) / (kFar_m - kNear_m));
-  return aimed * fraction_ * Wrench{faded(wanted.force_N, away_m_, left_there), wanted.torque_Nm};
+  return fraction_ * Wrench{faded(wanted.force_N, away_m_, left_there), wanted.torque_Nm};
 }
 
 bool GripBrake::acts() const noexcept {
   const double speed_m_s =
       std::max(ahead_.linear_m_s.norm(), body_.surface_m * ahead_.angular_rad_s.norm());
-  return resting_s_ > 0 || left_at(speed_m_s, band_) < 1;
+  return resting_s_ > 0 || aimed_ < 1 || left_at(speed_m_s, band_) < 1;
 }
 
 Wrench GripBrake::limit(const Wrench& slewed) const noexcept {
   const double left = left_at(ahead_.linear_m_s.norm(), band_);
   const double left_of_turn = left_at(body_.surface_m * ahead_.angular_rad_s.norm(), band_);
   // The strings cannot exert both: a torque takes tension that the linear damper needs.
-  return {without_push(slewed.force_N, ahead_.linear_m_s, left),
-          left * without_push(slewed.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
+  return aimed_ * Wrench{without_push(slewed.force_N, ahead_.linear_m_s, left),
+                         left * without_push(slewed.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
 }
 
 }  // namespace spidar

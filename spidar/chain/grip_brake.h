@@ -11,10 +11,9 @@
 
 namespace spidar {
 
-/// The speeds between which a force fades out, and the damping above `from_m_s`.
+/// The speeds between which a force fades out.
 struct FadeBand {
   double from_m_s = 0, to_m_s = 0;
-  double damping_N_s_m = 0;
 };
 
 /// Reduces a wrench that would accelerate a released grip, by four measures:
@@ -32,9 +31,9 @@ struct FadeBand {
 /// - Rest: the wrench goes to rest when the grip or its surface has been fast for kFast_s; half of
 ///   the time in which it was slow is subtracted. After kRest_s it returns within kReturn_s.
 ///
-/// A force that fades by speed or energy falls and returns at once, without a slew limit: 10 N that
-/// fell at 300 N/s would throw a grip of 50 g at 3.5 m/s, and 9 N across the motion turned it until
-/// they pushed, to 1.8 m/s. By place, and at rest, a force falls and returns at the slew limit. The
+/// What speed and energy leave of a force changes at once, without a slew limit: at 300 N/s, 10 N
+/// would throw a grip of 50 g at 3.5 m/s; and while 9 N across the motion fell, the motion turned
+/// towards them, up to 1.8 m/s. By place and at rest, a force changes at the slew limit. The
 /// constants are in brake_table.h, with their sources.
 ///
 /// A still hand that follows a film of 3 N notices none of these measures: with 300 N/m and 8 N s/m
@@ -77,7 +76,7 @@ class GripBrake {
   void rest_or_return(const GripVelocity& velocity, double dt_s) noexcept;
   double heaviness() const noexcept;
   double damping_N_s_m(double speed_m_s) const noexcept;
-  FadeBand band_at(double speed_m_s) const noexcept;
+  FadeBand fade_band() const noexcept;
 
   const GripBody body_;
   const double drive_lag_s_;
@@ -95,6 +94,7 @@ class GripBrake {
   // Results of the last apply().
   GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
   FadeBand band_;
+  double aimed_ = 1;  ///< fraction of a wrench to exert, because the grip rotates meanwhile
   Wrench damper_;
 };
 

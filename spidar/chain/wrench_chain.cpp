@@ -12,14 +12,15 @@ const std::array<WrenchChain::Step, 8> WrenchChain::kSteps{{
     {"Vibration", "the daily action value of Directive 2002/44/EC",
      "so that a force becomes weaker when it has shaken the hand for long",
      &WrenchChain::vibration},
-    {"Brake", "no force outwards from where the grip has been, nor for a second after it was fast",
+    {"Brake",
+     "no force outwards from where the grip has been, and no wrench for a second after it was fast",
      "because nobody may hold the grip", &WrenchChain::brake},
     {"Rates", "300 N/s and 10 N m/s unless others are set, and a ramp of 40 ms to rest and back",
      "so that a hand has the time to withstand", &WrenchChain::rates},
     {"In effect", "the limits that are set, or that fall to these at the rates",
      "because the wrench of before may be above them", &WrenchChain::effect},
     {"Brake at once",
-     "less force that does not brake the motion, and less torque, the faster the grip is",
+     "the faster the grip is, the less torque, and the less force except against its motion",
      "because a force that fell at the rates would throw it", &WrenchChain::brake_at_once},
     {"Damper", "with it, the limits in effect, or what the strings exert at rest",
      "because it takes back what these have given", &WrenchChain::damper},
@@ -52,7 +53,9 @@ Wrench WrenchChain::brake(const Wrench& wrench) noexcept {
   return left;
 }
 
+/// Where the brake can no longer act, a force does not return at once to what it has left out.
 Wrench WrenchChain::rates(const Wrench& wrench) noexcept {
+  if (traits.can_fly && (!fresh || !motion.is_known())) rate_limits.shorten_to(acknowledged);
   return rate_limits.apply(wrench.is_finite() ? wrench : Wrench{}, fresh, rates_s, set);
 }
 

@@ -36,9 +36,10 @@ class WrenchChain {
   WrenchLimits& rate_limits;
   const GripTraits& traits;
   const GripMotion& motion;
-  bool fresh;       ///< whether a wrench is wanted, and may be exerted
-  double rates_s;   ///< the time for which a force rises or falls in this tick
-  double passed_s;  ///< since the last tick
+  const Wrench& acknowledged;  ///< the last wrench that the device has received
+  bool fresh;                  ///< whether a wrench is wanted, and may be exerted
+  double rates_s;              ///< the time for which a force rises or falls in this tick
+  double passed_s;             ///< since the last tick
   // Results.
   bool brakes = false;    ///< whether the brake may have changed the wrench
   bool rejected = false;  ///< whether the wanted wrench was fresh, but not finite

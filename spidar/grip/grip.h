@@ -66,8 +66,8 @@ struct GripTraits {
 /// The command that a grip receives in a tick.
 struct GripCommand {
   Wrench wrench;  ///< on the hand, within the limits; only the brake exceeds the rate limits
-  /// Whether the brake acts, see GripBrake: a force that throws the grip ends at once, and damping
-  /// begins at once. A force that accelerates the grip rises no faster than otherwise.
+  /// Whether the brake acts, see GripBrake: a force that does not brake the motion fades and
+  /// returns at once, and damping begins at once. Tensions that push rise no faster than otherwise.
   bool brakes = false;
   /// Whether a wrench is wanted and the pose is known. Otherwise the wrench is ramping to zero.
   bool fresh = false;

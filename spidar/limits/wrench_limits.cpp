@@ -76,6 +76,11 @@ Wrench WrenchLimits::apply(const Wrench& wanted, bool fresh, double dt_s,
   return last_;
 }
 
+void WrenchLimits::shorten_to(const Wrench& at) noexcept {
+  last_ = {shorten(last_.force_N, at.force_N.norm()),
+           shorten(last_.torque_Nm, at.torque_Nm.norm())};
+}
+
 void WrenchLimits::undo() noexcept {
   last_ = last_before_;
   stale_ = stale_before_;

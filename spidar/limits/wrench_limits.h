@@ -50,6 +50,9 @@ class WrenchLimits {
   /// `fresh`, it is ignored, and the last applied wrench ramps to exactly zero.
   Wrench apply(const Wrench& wanted, bool fresh, double dt_s, const SafetyLimits& limits) noexcept;
 
+  /// The next apply() continues from no more than the size of `at`, which the brake has left.
+  void shorten_to(const Wrench& at) noexcept;
+
   /// Call this when the device did not receive the result of the last apply(): the next call
   /// continues from the previous wrench.
   void undo() noexcept;

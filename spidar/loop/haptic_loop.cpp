@@ -83,6 +83,7 @@ void HapticLoop::energise() noexcept {
   brake_.reset();
   brake_.forget_place();
   safety_.reset();
+  acknowledged_ = {};
   exerted_ = above_rest_ = {};
   idle_.reset();
 }
@@ -272,6 +273,7 @@ void HapticLoop::limit(TickRecord& record, const Step& step, double passed_s) no
                     safety_,
                     grip,
                     grip_->reading().motion,
+                    acknowledged_,
                     fresh,
                     dt_s,
                     passed_s};
@@ -298,6 +300,7 @@ void HapticLoop::exchange(TickRecord& record, const Step& step) noexcept {
   missing_.count(fault == LinkFault::kNone);
   if (fault == LinkFault::kNone) {
     acknowledged_power_ = power_;
+    acknowledged_ = record.commanded;
     exerted_ = grip.delivered;
     // A longer interval means that the program was suspended, or the device would be lost.
     const double interval_s = std::min(step.falls_s, kMaxErrors * kTick_s);
@@ -343,7 +346,7 @@ void HapticLoop::follow(double passed_s) noexcept {
 void HapticLoop::undo(TickRecord& record) noexcept {
   safety_.undo();
   limits_.undo();
-  record.commanded = limit_total(safety_.last(), limits_.in_effect());
+  record.commanded = limit_total(acknowledged_, limits_.in_effect());
   record.acknowledged = false;
   power_ = acknowledged_power_;
 }

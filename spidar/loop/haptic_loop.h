@@ -195,6 +195,7 @@ class HapticLoop {
   Pose at_;            ///< pose after the last exchange
   touch::Rendering touch_;
   WrenchLimits safety_;
+  Wrench acknowledged_;  ///< commanded in the last tick that the device has answered
   GripBrake brake_{grip_->traits().body, grip_->traits().drive_lag_s};
   VibrationBudget vibration_{grip_->traits().radius_m};
   IdleWatch idle_;

@@ -2,8 +2,8 @@
 // Copyright 2026 the gst-spidar authors
 // The speed that no film exceeds, of a free grip along one axis. What is proved is the part of the
 // brake that has no memory: a force along the foreseen speed fades within a band, and above its
-// lower speed a damper acts that is right for the lightest grip. What the brake remembers of a grip
-// only lowers the band and strengthens the damper.
+// lower speed a damper acts. What the brake remembers of a grip lowers the band, and leaves the
+// damper out only where the strings have not done the work of that speed, so that a hand moves it.
 //
 // The state of a grip is its speed, the force that acts on it behind drives of first order, and the
 // command on its way; the film is any force within its limit, in each tick. Every map is monotone,

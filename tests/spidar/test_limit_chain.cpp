@@ -57,12 +57,32 @@ TEST(LimitChains, RatesTakeWhatIsNotFiniteForNothing) {
   VibrationBudget vibration(profile.geometry.grip_radius_m());
   GripBrake brake(profile.body(), profile.drive_lag_s);
   WrenchLimits rates;
-  rates.apply({{1, 0, 0}, {0, 0, 0}}, true, 1, limits);
-  WrenchChain chain{limits, limits, limits, vibration, brake, rates, {}, {}, true, 1e-3, 1e-3};
+  const Wrench before = rates.apply({{1, 0, 0}, {0, 0, 0}}, true, 1, limits);
+  WrenchChain chain{limits, limits, limits, vibration, brake, rates,
+                    {},     {},     before, true,      1e-3,  1e-3};
   for (const WrenchChain::Step& step : WrenchChain::kSteps) {
     if (std::string(step.name) != "Rates") continue;
     const Wrench bad{{std::numeric_limits<double>::quiet_NaN(), 0, 0}, {0, 0, 0}};
     EXPECT_NEAR((chain.*step.function)(bad).force_N.x(), 1 - 1e-3 * limits.max_slew_N_s, 1e-12);
+  }
+}
+
+// When the pose is lost, nothing says how fast the grip is: what the brake had left goes on from
+// there.
+TEST(LimitChains, NoForceReturnsWhereTheBrakeCannotAct) {
+  const Profile profile = load_profile(kDefaultProfile);
+  const SafetyLimits limits;
+  const Wrench film{{3, 0, 0}, {0, 0, 0}}, left{{0.5, 0, 0}, {0, 0, 0}};
+  GripTraits traits;
+  traits.can_fly = true;
+  for (const bool fresh : {false, true}) {
+    VibrationBudget vibration(profile.geometry.grip_radius_m());
+    GripBrake brake(profile.body(), profile.drive_lag_s);
+    WrenchLimits rates;
+    rates.apply(film, true, 1, limits);
+    WrenchChain chain{limits, limits, limits, vibration, brake, rates,
+                      traits, {},     left,   fresh,     1e-3,  1e-3};
+    EXPECT_LE(chain.apply(film).force_N.norm(), 0.5 + 1e-3 * limits.max_slew_N_s + 1e-12);
   }
 }
 

@@ -200,9 +200,9 @@ TEST(ReleasedFilms, AFastSwingStoresByWhereItEnds) {
   EXPECT_LE(grip.fastest_m_s, kFastest_m_s);
 }
 
-/// The force that the brake takes away falls no faster than the slew limit lets it, and pushes on
-/// meanwhile. At half of the usual limit the grip gets 1.05 m/s if the brake does not predict that.
-TEST(ReleasedFilms, TheBrakeForeseesHowSlowlyAForceFalls) {
+/// A force that ends by place or rest falls at the slew limit, and pushes on meanwhile: at half of
+/// the usual limit, for twice as long.
+TEST(ReleasedFilms, AForceThatFallsSlowlyThrowsNoGrip) {
   const Profile profile = load_profile("spidar-g6x3-v2-l");
   GripModel model = released(profile, 0.1);
   model.hand_stiffness_N_m = 60;

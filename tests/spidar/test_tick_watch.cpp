@@ -141,7 +141,11 @@ class Rows {
     file_ << row;
   }
 
-  void want(double force_N) { record_.wanted.force_N.x() = force_N; }
+  void want(double force_N) {
+    record_.wanted.force_N.x() = force_N;
+    record_.playing = true;
+    record_.found = Found::kHeld;
+  }
 
   void check() {
     file_.flush();

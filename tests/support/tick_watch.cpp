@@ -112,10 +112,13 @@ void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
 
   motion_.update(record.pose, record.monotonic_ns);
 
-  // On its way from s to w, a force comes nearer to w by (s − w) / (s + w) of its way at least.
+  // A step towards w shortens a force s by at least (s − w) / (s + w) of the step. The ramp to rest
+  // begins more slowly than the slew limit.
   const double wanted_N = limit_total(record.wanted, limits).force_N.norm();
   if (!following_) slewed_N_ = largest_N_;
-  if (wanted_N >= slewed_N_) {
+  if (!to_be_felt(record) && !is_pushed(record)) {
+    if (stopped_s_ > kRest_s) slewed_N_ = 0;
+  } else if (wanted_N >= slewed_N_) {
     slewed_N_ = std::min(wanted_N, slewed_N_ + rate_N_s * dt_s);
   } else if (record.acknowledged) {
     slewed_N_ -= limits.max_slew_N_s * dt_s * (slewed_N_ - wanted_N) / (slewed_N_ + wanted_N);
@@ -172,14 +175,13 @@ void TickWatch::check(const TickRecord& record, const SafetyLimits& limits) {
 /// limit, and adds a damper against the motion. The error of the speed that the brake sees is
 /// kSpeedError_m_s at most.
 std::string TickWatch::fault_of_brake(const TickRecord& record) const {
-  constexpr double kFrom_m_s = brake::kSpeedError_m_s;  // no band of the brake begins below
   const Eigen::Vector3d& now_N = record.commanded.force_N;
   const Eigen::Vector3d velocity_m_s = motion_.velocity_in(0).linear_m_s;
   const double speed_m_s = velocity_m_s.norm();
   const double most_W = slewed_N_ * speed_m_s + brake::kSpeedError_m_s * now_N.norm();
   if (now_N.dot(velocity_m_s) > most_W + 1e-12) return "the brake pushes the grip";
-  const double damper_N =
-      brake::kDamping_N_s_m * std::max(0.0, speed_m_s + brake::kSpeedError_m_s - kFrom_m_s);
+  // No band of the brake begins below the error of the speed.
+  const double damper_N = brake::kDamping_N_s_m * speed_m_s;
   const double largest_N = slewed_N_ + damper_N;
   return now_N.norm() > largest_N + 1e-12 ? "the brake acts on a grip that is slow" : "";
 }

@@ -11,11 +11,12 @@ namespace spidar::test {
 /// Checks every tick of a test, and fails the test at the first violation of one of these
 /// conditions, whatever is played. Force and torque never exceed their limits. Their changes never
 /// exceed the slew limit in the time since the device has answered, of which two ticks count for
-/// rising values; where the brake acts, it never pushes the grip along, and only slows down a fast
-/// one. (SeamWatch judges the torque and the strings; it knows the real motion.) There is exactly
-/// no force 50 ms after the last due wrench, unless the brake acts, and 50 ms after the newest
-/// frame has become 100 ms old, by CLOCK_MONOTONIC or by running time. The exceptions are the 40 ms
-/// in which the force fades in before the next frame, and a surface that the grip touches.
+/// rising values; where the brake acts, the force pushes no harder than the slew limit allows, and
+/// is larger only against a fast grip. (SeamWatch judges the torque and the strings; it knows the
+/// real motion.) There is exactly no force 50 ms after the last due wrench, unless the brake acts,
+/// and 50 ms after the newest frame has become 100 ms old, by CLOCK_MONOTONIC or by running time.
+/// The exceptions are the 40 ms in which the force fades in before the next frame, and a surface
+/// that the grip touches.
 class TickWatch {
  public:
   /// Ticks the loop on time, and checks the result.
@@ -46,7 +47,7 @@ class TickWatch {
   GripMotion motion_;
   double largest_N_ = 0;  // the largest limits so far
   double largest_Nm_ = 0;
-  double slewed_N_ = 0;      // the most that the force at the slew limit can be
+  double slewed_N_ = 0;      // the most that the force can be before the brake takes a part
   double unanswered_s_ = 0;  // since the last acknowledged tick
   double stopped_s_ = 0;
   int64_t newest_frame_ns_ = INT64_MIN;
