@@ -6,8 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "spidar/chain/brake_table.h"
-
 namespace spidar {
 namespace {
 
@@ -87,8 +85,7 @@ void GripBrake::update(const Eigen::Vector3d& position_m, const GripMotion& moti
 
 /// A grip that rotates to and fro is slow twice in each period, so slow ticks count half.
 void GripBrake::rest_or_return(const GripVelocity& velocity, double dt_s) noexcept {
-  const double from_m_s = kFadeFrom_m_s + heaviness() * (kHeavyFrom_m_s - kFadeFrom_m_s);
-  const bool is_fast = velocity.linear_m_s.norm() > from_m_s ||
+  const bool is_fast = velocity.linear_m_s.norm() > by_work(kFadeFrom_m_s, kHeavyFrom_m_s) ||
                        body_.surface_m * velocity.angular_rad_s.norm() > kFadeFrom_m_s;
   fast_s_ = std::clamp(fast_s_ + (is_fast ? dt_s : -dt_s / 2), 0.0, kFast_s);
   if (fast_s_ >= kFast_s) release();
@@ -96,9 +93,10 @@ void GripBrake::rest_or_return(const GripVelocity& velocity, double dt_s) noexce
   fraction_ = resting_s_ > 0 ? 0 : std::min(1.0, fraction_ + dt_s / kReturn_s);
 }
 
-/// The weight of the lower FadeBand, that of a heavy grip, 0 … 1.
-double GripBrake::heaviness() const noexcept {
-  return std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0);
+/// From `light` to `heavy`, the more work the strings have done.
+double GripBrake::by_work(double light, double heavy) const noexcept {
+  return light + std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0) *
+                     (heavy - light);
 }
 
 /// The damping of the speed above the FadeBand. If the strings have given less energy than the
@@ -114,40 +112,37 @@ double GripBrake::damping_N_s_m(double speed_m_s) const noexcept {
 /// subtracted from kReleased_J, and the speeds are lower accordingly. Otherwise a film would push a
 /// heavy grip to where no string can brake it, and the strings at rest would throw it back.
 FadeBand GripBrake::fade_band() const noexcept {
-  const double heavy = heaviness();
-  const double from_m_s = kFadeFrom_m_s + heavy * (kHeavyFrom_m_s - kFadeFrom_m_s);
-  const double to_m_s = kFadeTo_m_s + heavy * (kHeavyTo_m_s - kFadeTo_m_s);
+  const double from_m_s = by_work(kFadeFrom_m_s, kHeavyFrom_m_s);
   const double turn_J = 0.5 * body_.most_kg_m2 * ahead_.angular_rad_s.squaredNorm();
   const double left = std::sqrt(std::clamp(1 - (turn_J + stored_J_) / kReleased_J, 0.0, 1.0));
   const double share = std::max(left, kSpeedError_m_s / from_m_s);
-  return {share * from_m_s, share * to_m_s};
+  return {share * from_m_s, share * by_work(kFadeTo_m_s, kHeavyTo_m_s)};
 }
 
 Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double dt_s) noexcept {
   const auto& [velocity_m_s, turn_rad_s] = motion.velocity();
   rest_or_return(motion.velocity(), dt_s);
   ahead_ = motion.velocity_in(kLoop_s + drive_lag_s_);
-  band_ = fade_band();
+  const FadeBand band = fade_band();
+  left_ = left_at(ahead_.linear_m_s.norm(), band);
+  left_of_turn_ = left_at(body_.surface_m * ahead_.angular_rad_s.norm(), band);
   aimed_ = aimed_at(turn_rad_s.norm() * (kLoop_s + drive_lag_s_));
   damper_ =
-      aimed_ * Wrench{damped(ahead_.linear_m_s, 1, band_, damping_N_s_m(velocity_m_s.norm())),
-                      damped(ahead_.angular_rad_s, body_.surface_m, band_, turn_damping(body_))};
+      aimed_ * Wrench{damped(ahead_.linear_m_s, 1, band, damping_N_s_m(velocity_m_s.norm())),
+                      damped(ahead_.angular_rad_s, body_.surface_m, band, turn_damping(body_))};
   const double left_there = std::max(0.0, (kFar_m - away_m_.norm()) / (kFar_m - kNear_m));
   return fraction_ * Wrench{faded(wanted.force_N, away_m_, left_there), wanted.torque_Nm};
 }
 
 bool GripBrake::acts() const noexcept {
-  const double speed_m_s =
-      std::max(ahead_.linear_m_s.norm(), body_.surface_m * ahead_.angular_rad_s.norm());
-  return resting_s_ > 0 || aimed_ < 1 || left_at(speed_m_s, band_) < 1;
+  return resting_s_ > 0 || std::min({aimed_, left_, left_of_turn_}) < 1;
 }
 
 Wrench GripBrake::limit(const Wrench& slewed) const noexcept {
-  const double left = left_at(ahead_.linear_m_s.norm(), band_);
-  const double left_of_turn = left_at(body_.surface_m * ahead_.angular_rad_s.norm(), band_);
   // The strings cannot exert both: a torque takes tension that the linear damper needs.
-  return aimed_ * Wrench{without_push(slewed.force_N, ahead_.linear_m_s, left),
-                         left * without_push(slewed.torque_Nm, ahead_.angular_rad_s, left_of_turn)};
+  return aimed_ *
+         Wrench{without_push(slewed.force_N, ahead_.linear_m_s, left_),
+                left_ * without_push(slewed.torque_Nm, ahead_.angular_rad_s, left_of_turn_)};
 }
 
 }  // namespace spidar

@@ -74,7 +74,7 @@ class GripBrake {
 
  private:
   void rest_or_return(const GripVelocity& velocity, double dt_s) noexcept;
-  double heaviness() const noexcept;
+  double by_work(double light, double heavy) const noexcept;
   double damping_N_s_m(double speed_m_s) const noexcept;
   FadeBand fade_band() const noexcept;
 
@@ -92,8 +92,8 @@ class GripBrake {
   double fraction_ = 1;   ///< the fraction of the wanted wrench that passes
   double resting_s_ = 0;  ///< time until the wrench begins to return
   // Results of the last apply().
-  GripVelocity ahead_;  ///< extrapolated to the time at which the force acts
-  FadeBand band_;
+  GripVelocity ahead_;                  ///< extrapolated to the time at which the force acts
+  double left_ = 1, left_of_turn_ = 1;  ///< fractions of force and torque that the speeds leave
   double aimed_ = 1;  ///< fraction of a wrench to exert, because the grip rotates meanwhile
   Wrench damper_;
 };
