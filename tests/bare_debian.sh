@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright 2026 the gst-spidar authors
-# Runs the two commands of the README in a folder with a Debian 12 that has only the packages of
+# Runs the two commands of the README in a folder with a Debian that has only the packages of
 # every Debian, as root. A package that the tests or examples/play.sh need fails here unless
 # tests/debian-packages.txt lists it. Nothing of this machine is visible from there: this source
 # tree is copied, and only proc, dev/pts and dev/shm are mounted. Warnings of the compiler are
 # errors.
-#   tests/bare_debian.sh RESULTS   leaves the tests' results in RESULTS/meson-logs, for summary.py
+#   tests/bare_debian.sh debian-12|debian-13 RESULTS   leaves the tests' results in RESULTS/meson-logs, for
+#                                                      summary.py
 # The exit status is 0 when the tests have run, whatever their results, play.sh has succeeded, and the
 # figures of tests/bench/regression.json are as they were. A
 # small Debian, 0.2 GB, the packages, 0.3 GB, and what ccache knows, up to 3 GB, are kept in
@@ -18,23 +19,23 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/debian_folder.sh
 . tests/debian_folder.sh
 
-if (($# != 1)); then
-    echo "error: usage: tests/bare_debian.sh RESULTS" >&2
+if (($# != 2)); then
+    echo "error: usage: tests/bare_debian.sh debian-12|debian-13 RESULTS" >&2
     exit 2
 fi
-results=$1
+release=$1
+results=$2
+choose_debian "$release"
 rm -rf "$results/meson-logs" "$results/first"  # of an earlier run
-need_own_mounts tests/bare_debian.sh "$results"
+need_own_mounts tests/bare_debian.sh "$@"
 
-suite=bookworm
-base=$debian_cache/debian-12
-packages=$debian_cache/debian-12-packages
-cache=$debian_cache/debian-12-ccache
+packages=$debian_cache/$release-packages
+cache=$debian_cache/$release-ccache
 source=/root/gst-spidar  # in there: root's home, which only root may enter, as homes of users are
 archives=/var/cache/apt/archives
 
 make_debian "$suite" "$base"
-root=$(mktemp -d "$debian_cache/debian-12.XXXXXX")
+root=$(mktemp -d "$debian_cache/$release.XXXXXX")
 remove_root() {
     umount --lazy "$root"/{proc,dev/pts,dev/shm,ccache} 2>/dev/null || true
     ! mountpoint -q "$root/ccache" || return 0
@@ -66,7 +67,7 @@ in_root() {
 }
 
 status=0
-say "on a bare Debian 12: tests/run.sh --all, which begins with tests/run.sh"
+say "on a bare $release: tests/run.sh --all, which begins with tests/run.sh"
 in_root bash -c '. tests/install.sh && install_packages cache' || true
 # With the last of these, ccache understands GCC's precompiled headers.
 in_root CXXFLAGS='-Werror -fpch-preprocess' tests/run.sh --all || true
@@ -78,9 +79,9 @@ for folder in first .; do
         status=1
     fi
 done
-say "on a bare Debian 12: examples/play.sh --ball"
+say "on a bare $release: examples/play.sh --ball"
 in_root examples/play.sh --ball --output /tmp && [[ -s $root/tmp/spidar-play.png ]] || status=1
-say "on a bare Debian 12: figures beside those of tests/bench/regression.json"
+say "on a bare $release: figures beside those of tests/bench/regression.json"
 in_root sh -c 'meson configure build -Dbenchmarks=enabled && ninja -C build tests/bench/spidar-bench plugin/libgstspidar.so &&
     meson test -C build --no-rebuild --benchmark --verbose regression' || status=1
 # Those of this run: what it did not need is out of date.

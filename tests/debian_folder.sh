@@ -20,6 +20,19 @@ need_own_mounts() {
         GST_SPIDAR_OWN_MOUNTS=1 exec unshare --mount --propagation private "$@"
 }
 
+# choose_debian RELEASE: sets $suite, and $base to the folder where make_debian is to put that Debian.
+# shellcheck disable=SC2034  # the callers use base
+choose_debian() {
+    case $1 in
+    debian-12) suite=bookworm base=$debian_cache/debian-12 ;;
+    debian-13) suite=trixie base=$debian_cache/bare-debian-13 ;;  # debian-13 is that of tests/runtimes.sh
+    *)
+        echo "error: unknown release '$1'; it is debian-12 or debian-13" >&2
+        exit 2
+        ;;
+    esac
+}
+
 # make_debian SUITE FOLDER: the packages that every Debian has. Does nothing when the folder is there.
 make_debian() {
     local suite=$1 folder=$2

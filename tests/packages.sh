@@ -14,19 +14,11 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # shellcheck source-path=SCRIPTDIR source=../tests/debian_folder.sh
 . tests/debian_folder.sh
 
-case ${1-} in
-debian-12) suite=bookworm small=debian-12 ;;
-debian-13) suite=trixie small=bare-debian-13 ;;
-*)
-    echo "error: unknown release '${1-}'; usage: tests/packages.sh debian-12|debian-13 [FOLDER]" >&2
-    exit 2
-    ;;
-esac
-release=$1
+release=${1-}
+choose_debian "$release"
 folder=$(realpath -m "${2:-packages-$release}")
 need_own_mounts tests/packages.sh "$@"
 
-base=$debian_cache/$small
 cache=$debian_cache/ccache-$release
 downloaded=$debian_cache/downloaded-$release
 roots=()

@@ -122,7 +122,7 @@ use_cache() {
 # run_on_bare_debian RESULTS
 run_on_bare_debian() {
     local what="tests/run.sh, examples/play.sh --ball and the regression figures on a bare Debian"
-    if tests/bare_debian.sh "$1"; then
+    if tests/bare_debian.sh debian-12 "$1"; then
         checks+=(--passed "$what")
     else
         checks+=(--failed "$what: see above")

@@ -17,13 +17,12 @@ constexpr double kLoop_s = 1.5e-3;       // from a pose to its force: a tick and
 constexpr double kSpeedError_m_s = 0.1;  // of the extrapolated speed: test LateTicks
 constexpr double kFadeFrom_m_s = 0.58;   // 0.57: a hand of 300 N/m notices it
 constexpr double kFadeTo_m_s = 1.0;      // only a force that brakes above: 100 g have kReleased_J
-constexpr double kDamping_N_s_m = 4.5;   // 5.1: a grip of 20 g is shaken for ever, see ComesToRest
+constexpr double kDamping_N_s_m = 3.8;   // 4.5: a grip of 20 g is shaken for ever, see ComesToRest
 constexpr double kAimed_rad = 0.5;       // after this rotation, a wrench still acts with cos = 0.88
 
 // --- Energy
 constexpr double kHeavyFrom_m_s = 0.47;  // 0.45: a hand of 300 N/m notices it after kHeavyWork_J
 constexpr double kHeavyTo_m_s = 0.5;     // 0.52: a film of 10 N gives 300 g more than 67 mJ
-constexpr double kLightWork_J = 0.012;   // 0.008: a hand of 300 N/m notices it, at 2 Hz
 constexpr double kHeavyWork_J = 0.022;   // 0.02: a hand of 300 N/m notices it
 
 // --- Place
@@ -36,22 +35,18 @@ constexpr double kFollows_s = 3;  // a loose hand returns sooner; its place must
 constexpr double kFast_s = 0.07;   // 0.05: the force of a hand of 300 N/m rests, at 10.2 N
 constexpr double kRest_s = 1.0;    // a released grip stops swinging, see ItsForceRestsAndReturns
 constexpr double kReturn_s = 1.0;  // slow enough that an unheld grip goes to rest again
-constexpr double kFarTurn_rad = 1.75;  // a forearm turns by 90°; GripWatch's 2.1 comes 20 ms later
 
-/// The largest damping / inertia with which a damper is stable, 1/s, if the device answers once in
-/// `interval_s`. The damped speed is extrapolated over the lag of the drives. The remaining delay
-/// is that of the loop and of the filter of the speed, d intervals T, and v[k + 1] = v[k] − c T v[k
-/// − d] is stable up to c T = 2 sin(π / (4 d + 2)).
-inline double stable_damping_1_s(double interval_s) {
-  const double late = (1e3 * kLoop_s * interval_s + GripMotion::kLag_s) / interval_s;
-  return 2 / interval_s * std::sin(M_PI / (4 * late + 2));
-}
-
-/// The damping of rotations, N m s/rad: stable for a fifth of the smallest inertia, if the device
-/// answers in one tick of three.
+/// The damping of rotations, N m s/rad, for an eleventh of the smallest inertia, if the device
+/// answers in one tick of three: v[k + 1] = v[k] − c T v[k − d] is stable up to c T = 2 sin(π / (4
+/// d + 2)), where d intervals T are the delay of the loop and of the filter of the speed.
+/// ComesToRest needs more than 6.8, a quarter of the inertia of 20 g, because the acceleration in
+/// ahead_ is later than the speed. With 9, a grip turns to and fro for ever; with 14, one turns on
+/// for too long.
 inline double turn_damping(const GripBody& body) {
-  constexpr double kInertiaMargin = 5, kSlowest_s = 3e-3;
-  return stable_damping_1_s(kSlowest_s) / kInertiaMargin * body.least_kg_m2;
+  constexpr double kInertiaMargin = 11, kInterval_s = 3e-3;
+  const double late = (1e3 * kLoop_s * kInterval_s + GripMotion::kLag_s) / kInterval_s;
+  const double stable_1_s = 2 / kInterval_s * std::sin(M_PI / (4 * late + 2));
+  return stable_1_s / kInertiaMargin * body.least_kg_m2;
 }
 
 }  // namespace spidar::brake

@@ -33,11 +33,9 @@ Eigen::Vector3d damped(const Eigen::Vector3d& velocity, double arm_m, const Fade
   return -damping * above_m_s / speed_m_s * velocity;
 }
 
-/// The fraction of a wrench to exert if the grip rotates by `turn_rad` before the wrench acts.
-/// Tensions for one pose exert another wrench at the next: they accelerated a grip at 300 rad/s
-/// instead of braking it.
-double aimed_at(double turn_rad) {
-  return std::clamp(2 - turn_rad / kAimed_rad, 0.0, 1.0);
+/// Rises from 0 to 1 while `fraction` rises from a half to 1.
+double upper_half(double fraction) {
+  return std::clamp(2 * fraction - 1, 0.0, 1.0);
 }
 
 /// Reduces `vector` to the fraction `left`, except for its component against `velocity`.
@@ -76,11 +74,12 @@ void GripBrake::update(const Eigen::Vector3d& position_m, const GripMotion& moti
   away_m_ = position_m - place_m_;
   // The place does not follow a grip that the force pushes away: no hand chose that position.
   if (!(film_N_.dot(away_m_) > 0)) place_m_ += fraction_passed(dt_s, kFollows_s) * away_m_;
-  // No unheld grip has more energy than the heaviest at its speed.
+  // A braked grip keeps what it was given: a hand's spring may return it. No unheld grip has more
+  // energy than the heaviest at its speed.
   const double speed_m_s =
       kSpeedError_m_s + std::max(velocity_m_s.norm(), ahead_.linear_m_s.norm());
-  work_J_ = std::clamp(work_J_ + dt_s * acting_N_.dot(velocity_m_s), 0.0,
-                       0.5 * kHeaviestGrip_kg * speed_m_s * speed_m_s);
+  work_J_ = std::min(work_J_ + std::max(0.0, dt_s * acting_N_.dot(velocity_m_s)),
+                     0.5 * kHeaviestGrip_kg * speed_m_s * speed_m_s);
 }
 
 /// A grip that rotates to and fro is slow twice in each period, so slow ticks count half.
@@ -95,8 +94,7 @@ void GripBrake::rest_or_return(const GripVelocity& velocity, double dt_s) noexce
 
 /// From `light` to `heavy`, the more work the strings have done.
 double GripBrake::by_work(double light, double heavy) const noexcept {
-  return light + std::clamp((work_J_ - kLightWork_J) / (kHeavyWork_J - kLightWork_J), 0.0, 1.0) *
-                     (heavy - light);
+  return light + upper_half(work_J_ / kHeavyWork_J) * (heavy - light);
 }
 
 /// The damping of the speed above the FadeBand. If the strings have given less energy than the
@@ -104,8 +102,7 @@ double GripBrake::by_work(double light, double heavy) const noexcept {
 double GripBrake::damping_N_s_m(double speed_m_s) const noexcept {
   if (!held()) return kDamping_N_s_m;
   const double least_m_s = std::max(speed_m_s - kSpeedError_m_s, 1e-3);
-  const double thrown = 2 * work_J_ / (kLightestGrip_kg * least_m_s * least_m_s);
-  return kDamping_N_s_m * std::clamp(2 * thrown - 1, 0.0, 1.0);
+  return kDamping_N_s_m * upper_half(2 * work_J_ / (kLightestGrip_kg * least_m_s * least_m_s));
 }
 
 /// The largest energy of the rotation and the energy that the strings at rest have stored are
@@ -126,7 +123,9 @@ Wrench GripBrake::apply(const Wrench& wanted, const GripMotion& motion, double d
   const FadeBand band = fade_band();
   left_ = left_at(ahead_.linear_m_s.norm(), band);
   left_of_turn_ = left_at(body_.surface_m * ahead_.angular_rad_s.norm(), band);
-  aimed_ = aimed_at(turn_rad_s.norm() * (kLoop_s + drive_lag_s_));
+  // Tensions for one pose exert another wrench at the next: they accelerated a grip at 300 rad/s
+  // instead of braking it.
+  aimed_ = std::clamp(2 - turn_rad_s.norm() * (kLoop_s + drive_lag_s_) / kAimed_rad, 0.0, 1.0);
   damper_ =
       aimed_ * Wrench{damped(ahead_.linear_m_s, 1, band, damping_N_s_m(velocity_m_s.norm())),
                       damped(ahead_.angular_rad_s, body_.surface_m, band, turn_damping(body_))};

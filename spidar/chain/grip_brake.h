@@ -83,7 +83,7 @@ class GripBrake {
   Eigen::Vector3d strings_N_ = Eigen::Vector3d::Zero();  ///< commanded
   Eigen::Vector3d film_N_ = Eigen::Vector3d::Zero();     ///< of it, what is not exerted at rest
   Eigen::Vector3d acting_N_ = Eigen::Vector3d::Zero();   ///< after the drive's lag
-  double work_J_ = 0;    ///< work of the strings on the grip since it was last at rest
+  double work_J_ = 0;    ///< what the strings have given the grip since it was last at rest
   double stored_J_ = 0;  ///< energy that the strings at rest can return
   bool knows_place_ = false;
   Eigen::Vector3d place_m_ = Eigen::Vector3d::Zero();  ///< where the grip has been for some seconds

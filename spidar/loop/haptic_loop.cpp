@@ -7,13 +7,16 @@
 #include <utility>
 
 #include "core/wrench_size.h"
-#include "spidar/chain/brake_table.h"
 #include "spidar/chain/wrench_chain.h"
 
 namespace spidar {
 namespace {
 
 constexpr double kMaxRate = 10;
+
+/// A rotation beyond this is that of a released grip: a forearm turns by 90°. The force ends before
+/// the strings tangle and the pose is lost, which GripWatch::kMaxTurn_rad tells 20 ms later.
+constexpr double kReleasedTurn_rad = 1.75;
 
 /// Whether the film currently provides a wrench to render.
 bool has_frame(const TickRecord& record) noexcept {
@@ -334,9 +337,7 @@ void HapticLoop::count_energy(const TickRecord& record) noexcept {
 void HapticLoop::follow(double passed_s) noexcept {
   const GripReading& grip = grip_->reading();
   if (!grip_->traits().can_fly) return;
-  // No hand rotates a grip this far. The force ends before the strings tangle and the pose is
-  // lost.
-  if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * brake::kFarTurn_rad)) brake_.release();
+  if (std::fabs(grip.pose.orientation.w()) < std::cos(0.5 * kReleasedTurn_rad)) brake_.release();
   if (!grip.motion.is_known()) return brake_.reset();
   brake_.update(grip.pose.position_m, grip.motion, grip.stored_J, passed_s);
   brake_.pull(grip.delivered.force_N, grip.at_rest.force_N, passed_s);
