@@ -6,8 +6,8 @@
 # tests/debian-packages.txt lists it. Nothing of this machine is visible from there: this source
 # tree is copied, and only proc, dev/pts and dev/shm are mounted. Warnings of the compiler of
 # Debian 12 are errors.
-#   tests/bare_debian.sh debian-12|debian-13 RESULTS   leaves the tests' results in RESULTS/meson-logs, for
-#                                                      summary.py
+#   tests/bare_debian.sh debian-12|debian-13 RESULTS
+# The tests' results are then in RESULTS/meson-logs, for summary.py.
 # The exit status is 0 when the tests have run, whatever their results, play.sh has succeeded, and the
 # figures of tests/bench/regression.json are as they were. A
 # small Debian, 0.2 GB, the packages, 0.3 GB, and what ccache knows, up to 3 GB, are kept in

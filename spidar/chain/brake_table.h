@@ -39,9 +39,9 @@ constexpr double kReturn_s = 1.0;  // slow enough that an unheld grip goes to re
 /// The damping of rotations, N m s/rad, for an eleventh of the smallest inertia, if the device
 /// answers in one tick of three: v[k + 1] = v[k] − c T v[k − d] is stable up to c T = 2 sin(π / (4
 /// d + 2)), where d intervals T are the delay of the loop and of the filter of the speed.
-/// ComesToRest needs more than 6.8, a quarter of the inertia of 20 g, because the acceleration in
-/// ahead_ is later than the speed. With 9, a grip turns to and fro for ever; with 14, one turns on
-/// for too long.
+/// A grip of 20 g with a quarter of the inertia needs 6.8, and more because the acceleration with
+/// which the speed is extrapolated is later than the speed. With 9, a grip turned to and fro for
+/// ever; with 14, one turned on for more than a second (as in ComesToRest, with other pushes).
 inline double turn_damping(const GripBody& body) {
   constexpr double kInertiaMargin = 11, kInterval_s = 3e-3;
   const double late = (1e3 * kLoop_s * kInterval_s + GripMotion::kLag_s) / kInterval_s;
