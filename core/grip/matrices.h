@@ -16,8 +16,8 @@ struct SingularValues {
 };
 
 /// Computes the SVD of a non-empty matrix whose size is known only at run time, for its rank, null
-/// space and eigenvectors. Not for the 1 kHz loop, because it allocates. Not inline, because each
-/// file that includes Eigen's decomposition takes up to ten seconds longer to compile.
+/// space and eigenvectors. Not for the 1 kHz loop, because it allocates. By OpenCV, because Eigen's
+/// decomposition takes the compiler ten seconds.
 SingularValues singular_values(const Eigen::MatrixXd& A);
 
 /// Solves a symmetric positive definite system M y = b of a few unknowns in the 1 kHz loop. M
