@@ -81,3 +81,8 @@ class ScreenCase(unittest.TestCase):
         cls.addClassCleanup(cls.screen.stop)
         if cls.screen.why_not:
             raise unittest.SkipTest(cls.screen.why_not)
+
+    def setUp(self):
+        super().setUp()
+        # Those of an earlier test close a moment after its programs have ended, and would be taken for this one's.
+        self.assertTrue(comes(lambda: not windows()), "windows of an earlier test stay")
