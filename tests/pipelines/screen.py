@@ -84,5 +84,5 @@ class ScreenCase(unittest.TestCase):
 
     def setUp(self):
         super().setUp()
-        # Those of an earlier test close a moment after its programs have ended, and would be taken for this one's.
-        self.assertTrue(comes(lambda: not windows()), "windows of an earlier test stay")
+        # The windows of an earlier test close a moment after its programs have ended.
+        self.assertTrue(comes(lambda: not windows()), "windows of an earlier test stay open")
